@@ -1,0 +1,3 @@
+//! The only place that names Rapier's internals.
+
+pub(crate) mod setup;

@@ -1,0 +1,104 @@
+//! Components for the world a character moves in: what a surface does to those who stand on it,
+//! volumes of water, ladders, and what a character may touch.
+
+use bevy::prelude::*;
+
+/// Carries characters that stand on this collider, as a conveyor or an escalator does, while the
+/// collider itself stands still.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct SurfaceVelocity {
+    /// Velocity of the surface in the collider's own axes, metres per second.
+    pub linear: Vec3,
+    /// Turning of the surface about the collider's origin, in its own axes, radians per second.
+    pub angular: Vec3,
+}
+
+/// How well feet hold on this collider: scales a motor's acceleration and friction.
+/// 1 is full grip, 0 is perfect ice on which a character keeps its velocity.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct SurfaceGrip(pub f32);
+
+impl Default for SurfaceGrip {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+/// Water: put it on an entity with a sensor [`Collider`](bevy_rapier3d::prelude::Collider).
+/// A character whose waist is inside swims.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct WaterVolume {
+    /// Velocity of the water, world axes, metres per second; carries swimmers.
+    pub flow: Vec3,
+}
+
+impl Default for WaterVolume {
+    fn default() -> Self {
+        Self { flow: Vec3::ZERO }
+    }
+}
+
+/// A ladder: put it on an entity with a sensor [`Collider`](bevy_rapier3d::prelude::Collider)
+/// that covers the space from which it can be climbed. The entity's local `+Z` points from the
+/// ladder to the climber, its local `+Y` along the rungs' climb.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct Ladder;
+
+/// On a body: characters never push it and are never pushed by it; it is a wall to them.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct NotPushable;
+
+/// On a character: decides which colliders it touches, beyond Rapier's
+/// [`CollisionGroups`](bevy_rapier3d::prelude::CollisionGroups). Sensors are never touched.
+#[derive(Component, Clone, Copy)]
+pub struct CharacterFilter(pub fn(character: Entity, other: Entity) -> bool);
+
+/// On a character: leaves out these entities' colliders.
+#[derive(Component, Reflect, Clone, Debug, Default, PartialEq, bevy::ecs::entity::MapEntities)]
+#[reflect(Component, Default, Debug, PartialEq, Clone, MapEntities)]
+pub struct CharacterIgnores(#[entities] pub Vec<Entity>);
+
+/// Where up is for a character. Without it up is world `+Y`.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Debug, PartialEq, Clone)]
+pub struct CharacterUp {
+    /// The direction.
+    pub direction: UpDirection,
+    /// How fast the character turns to a new up, radians per second; at infinity at once.
+    pub turn_rate: f32,
+}
+
+impl Default for CharacterUp {
+    fn default() -> Self {
+        Self {
+            direction: UpDirection::World(Vec3::Y),
+            turn_rate: 6.0,
+        }
+    }
+}
+
+/// A rule for up.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
+pub enum UpDirection {
+    /// A direction in world axes.
+    World(Vec3),
+    /// Away from a point in the world, as on a planet.
+    AwayFrom(Vec3),
+    /// Against the gravity of the physics world.
+    AgainstGravity,
+    /// A direction in the axes of another entity, as on a turning ship.
+    Of(Entity, Vec3),
+    /// Along the normal of the ground that is stood on; the last one when in the air.
+    Ground,
+}
