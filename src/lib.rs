@@ -4,6 +4,7 @@
 
 mod backend;
 pub mod interpolation;
+mod math;
 mod schedule;
 mod teleport;
 
