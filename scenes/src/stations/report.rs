@@ -31,12 +31,11 @@ pub fn run_headless_with(course: &Course, filter: Option<&str>, hz: f64) -> Vec<
         .map(|station| {
             let mut sim = Sim::with(hz, (bevy_embody::EmbodyPlugins, CoursePlugin));
             sim.app.insert_resource(course.clone());
-            let spawned = sim
-                .app
-                .world_mut()
-                .run_system_once(|mut commands: Commands, course: Res<Course>| {
+            let spawned = sim.app.world_mut().run_system_once(
+                |mut commands: Commands, course: Res<Course>| {
                     spawn_course(&mut commands, &course);
-                });
+                },
+            );
             debug_assert!(spawned.is_ok(), "the course is a resource");
             // Queries see colliders from the tick after they were spawned.
             sim.ticks(2);
@@ -72,16 +71,15 @@ pub fn table(results: &[StationResult]) -> String {
         }
     }
     let passed = results.iter().filter(|result| result.passed()).count();
-    let _ = writeln!(
-        text,
-        "{passed} passed, {} failed",
-        results.len() - passed
-    );
+    let _ = writeln!(text, "{passed} passed, {} failed", results.len() - passed);
     text
 }
 
 /// Prints the [`table`].
-#[expect(clippy::print_stdout, reason = "the table is what a headless run is for")]
+#[expect(
+    clippy::print_stdout,
+    reason = "the table is what a headless run is for"
+)]
 pub fn print_table(results: &[StationResult]) {
     print!("{}", table(results));
 }
