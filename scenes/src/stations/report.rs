@@ -4,6 +4,8 @@ use core::fmt::Write;
 
 use bevy::{ecs::system::RunSystemOnce, prelude::*};
 
+use bevy_embody::{interpolation::EmbodyInterpolationPlugin, prelude::*};
+
 use super::{StationResult, StationRun, stations};
 use crate::{
     Sim,
@@ -29,7 +31,9 @@ pub fn run_headless_with(course: &Course, filter: Option<&str>, hz: f64) -> Vec<
         .into_iter()
         .filter(|station| filter.is_none_or(|part| station.name.contains(part)))
         .map(|station| {
-            let mut sim = Sim::with(hz, (bevy_embody::EmbodyPlugins, CoursePlugin));
+            // Between ticks a walker is looked at, and an eased pose is not where it is.
+            let plugins = EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>();
+            let mut sim = Sim::with(hz, (plugins, CoursePlugin));
             sim.app.insert_resource(course.clone());
             let spawned = sim.app.world_mut().run_system_once(
                 |mut commands: Commands, course: Res<Course>| {
