@@ -1,6 +1,10 @@
 //! Characters that walk.
 
 mod backend;
+#[cfg(all(feature = "character", any(feature = "debug", feature = "egui")))]
+pub mod debug;
+#[cfg(feature = "character")]
+mod diagnostics;
 mod schedule;
 
 #[cfg(feature = "character")]
@@ -8,6 +12,12 @@ pub mod character;
 
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
+#[cfg(all(feature = "character", feature = "debug"))]
+pub use debug::EmbodyDebugPlugin;
+#[cfg(all(feature = "character", feature = "egui"))]
+pub use debug::EmbodyInspectorPlugin;
+#[cfg(feature = "character")]
+pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
 
 /// Everything that the enabled features offer, ready to use.
