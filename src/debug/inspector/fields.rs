@@ -250,11 +250,12 @@ mod tests {
         registry.register::<Character>();
         registry.register::<CharacterMotor>();
         let context = egui::Context::default();
-        let _ = context.run_ui(egui::RawInput::default(), |ui| {
+        let mut output = context.run_ui(egui::RawInput::default(), |ui| {
             let mut form = Form::new(&registry, edits, Entity::PLACEHOLDER);
             form.component(ui, character);
             form.component(ui, motor);
         });
+        output.textures_delta.clear();
     }
 
     #[test]
