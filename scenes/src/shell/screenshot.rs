@@ -1,0 +1,78 @@
+//! Takes a picture of a station and exits.
+
+use core::time::Duration;
+use std::path::PathBuf;
+
+use bevy::{
+    prelude::*,
+    render::view::screenshot::{Screenshot, ScreenshotCaptured, save_to_disk},
+    time::TimeUpdateStrategy,
+};
+
+use super::camera::{CameraMode, CameraRig};
+
+/// Frames per second of the picture's time.
+const RATE: f32 = 60.0;
+
+/// The picture to take.
+#[derive(Resource, Clone, Debug)]
+pub struct Shot {
+    /// Where to save it; the ending chooses the format.
+    pub file: PathBuf,
+    /// How long to let the world run before, seconds.
+    pub seconds: f32,
+    /// From where: turn and pitch (radians) against the player's facing, and distance (metres).
+    pub view: Option<Vec3>,
+    /// Looks from this pose at the whole course instead.
+    pub overview: Option<Transform>,
+}
+
+/// Takes the [`Shot`], with a clock that advances by the same time each frame, and exits: with
+/// success only if the file is there.
+pub struct ShotPlugin(pub Shot);
+
+impl Plugin for ShotPlugin {
+    fn build(&self, app: &mut App) {
+        app.insert_resource(TimeUpdateStrategy::ManualDuration(
+            Duration::from_secs_f32(1.0 / RATE),
+        ))
+        .insert_resource(self.0.clone())
+        .add_systems(PostStartup, aim)
+        .add_systems(Update, shoot);
+    }
+}
+
+fn aim(shot: Res<Shot>, mut rigs: Query<(&mut CameraRig, &mut Transform)>) {
+    for (mut rig, mut transform) in &mut rigs {
+        if let Some(view) = shot.view {
+            rig.yaw += view.x;
+            rig.pitch = view.y;
+            rig.distance = view.z;
+        }
+        if let Some(overview) = shot.overview {
+            rig.mode = CameraMode::Fixed;
+            *transform = overview;
+        }
+    }
+}
+
+fn shoot(mut frame: Local<u32>, shot: Res<Shot>, mut commands: Commands) {
+    *frame += 1;
+    let wanted = (shot.seconds.max(0.1) * RATE).round() as u32;
+    if *frame == wanted {
+        commands
+            .spawn(Screenshot::primary_window())
+            .observe(save_to_disk(shot.file.clone()))
+            .observe(finish);
+    }
+}
+
+/// Runs after the file was written; both watch the same event in this order.
+fn finish(_: On<ScreenshotCaptured>, shot: Res<Shot>, mut exit: MessageWriter<AppExit>) {
+    exit.write(if shot.file.is_file() {
+        AppExit::Success
+    } else {
+        error!("no picture was saved to {}", shot.file.display());
+        AppExit::error()
+    });
+}
