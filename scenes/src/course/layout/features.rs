@@ -195,6 +195,13 @@ pub struct Funnel {
     pub walls: usize,
 }
 
+impl Funnel {
+    /// Where the walker starts: above the walls, not quite in the middle.
+    pub fn start(&self) -> Vec3 {
+        Vec3::new(0.12, FUNNEL_DROP, 0.07)
+    }
+}
+
 /// Distance of the rim of a funnel from its middle.
 pub const FUNNEL_RIM: f32 = 1.0;
 /// Angle of the walls from level, degrees.
@@ -396,6 +403,13 @@ pub struct Turntable {
 pub const TABLE_TOP: f32 = 0.2;
 /// Distance of the walker from the axis, as a part of the radius.
 pub const TABLE_STAND: f32 = 0.6;
+
+impl Turntable {
+    /// Where the walker starts.
+    pub fn start(&self) -> Vec3 {
+        Vec3::new(0.0, TABLE_TOP, TABLE_STAND * self.radius)
+    }
+}
 
 /// The turntables.
 pub fn turntables() -> Vec<Turntable> {
