@@ -1,11 +1,15 @@
-//! Characters that walk.
+#![doc = include_str!("../README.md")]
+// Bits must not depend on the platform's mathematics library.
+#![warn(clippy::disallowed_methods)]
 
 mod backend;
 #[cfg(all(feature = "character", any(feature = "debug", feature = "egui")))]
 pub mod debug;
 #[cfg(feature = "character")]
 mod diagnostics;
+pub mod interpolation;
 mod schedule;
+mod teleport;
 
 #[cfg(feature = "character")]
 pub mod character;
@@ -18,7 +22,9 @@ pub use debug::EmbodyDebugPlugin;
 pub use debug::EmbodyInspectorPlugin;
 #[cfg(feature = "character")]
 pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
+pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
+pub use teleport::Teleported;
 
 /// Everything that the enabled features offer, ready to use.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,7 +32,9 @@ pub struct EmbodyPlugins;
 
 impl PluginGroup for EmbodyPlugins {
     fn build(self) -> PluginGroupBuilder {
-        let group = PluginGroupBuilder::start::<Self>().add(EmbodyCorePlugin);
+        let group = PluginGroupBuilder::start::<Self>()
+            .add(EmbodyCorePlugin)
+            .add(interpolation::EmbodyInterpolationPlugin);
         #[cfg(feature = "character")]
         let group = group.add(character::CharacterPlugin);
         group
@@ -45,5 +53,8 @@ pub mod prelude {
         SurfaceVelocity, UpDirection, WaterVolume,
     };
     #[doc(hidden)]
-    pub use crate::{EmbodyCorePlugin, EmbodyPlugins, EmbodySystems};
+    pub use crate::{
+        EmbodyCorePlugin, EmbodyDiagnosis, EmbodyPlugins, EmbodyProblem, EmbodySystems, Teleported,
+        interpolation::{EmbodyInterpolationPlugin, Interpolated},
+    };
 }
