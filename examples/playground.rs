@@ -113,7 +113,7 @@ fn shot(options: &Options, file: &std::path::Path) -> Shot {
             _ => None,
         }),
         overview: overview.then(|| {
-            Transform::from_xyz(38.0, 26.0, 56.0).looking_at(Vec3::new(0.0, 0.0, 4.0), Vec3::Y)
+            Transform::from_xyz(31.0, 20.0, 49.0).looking_at(Vec3::new(-4.0, 0.0, 6.0), Vec3::Y)
         }),
     }
 }

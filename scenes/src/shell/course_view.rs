@@ -7,7 +7,9 @@ use bevy::{
     prelude::*,
 };
 
-use crate::course::{Course, CourseNode, Material, Surface};
+use bevy_embody::prelude::*;
+
+use crate::course::{Course, CourseNode, Material, Surface, extras::BodyKind};
 
 /// Gives every [`CourseNode`] its looks, as soon as it is spawned.
 pub(super) struct CourseViewPlugin;
@@ -54,7 +56,11 @@ fn dress(
         let clear = course.materials.get(place).is_some_and(|paint| paint.blend);
         (paints.0[place].clone(), clear)
     };
-    commands.entity(added.entity).insert(Visibility::default());
+    let mut entity = commands.entity(added.entity);
+    entity.insert(Visibility::default());
+    if node.extras.body != BodyKind::Fixed {
+        entity.insert(Interpolated);
+    }
     for surface in &node.surfaces {
         let (paint, clear) = painted(surface);
         let mut look = commands.spawn((Mesh3d(meshes.add(mesh(surface))), MeshMaterial3d(paint)));

@@ -2,14 +2,11 @@
 //! characters went.
 
 use bevy::{
-    app::{PluginGroupBuilder, ScheduleRunnerPlugin},
+    app::PluginGroupBuilder,
+    input::{InputPlugin, InputSystems},
+    log::LogPlugin,
     prelude::*,
-    render::{
-        RenderPlugin,
-        settings::{RenderCreation, WgpuSettings},
-    },
     time::TimeUpdateStrategy,
-    winit::WinitPlugin,
 };
 use bevy_embody::prelude::*;
 
@@ -29,20 +26,12 @@ pub fn demo_plugins(title: &str) -> PluginGroupBuilder {
     if !asked {
         println!("There is no display: running for some seconds without a window.");
     }
-    window_plugins(title, false)
-        .set(WindowPlugin {
-            primary_window: None,
-            ..default()
-        })
-        .set(RenderPlugin {
-            render_creation: RenderCreation::Automatic(Box::new(WgpuSettings {
-                backends: None,
-                ..default()
-            })),
-            ..default()
-        })
-        .disable::<WinitPlugin>()
-        .add(ScheduleRunnerPlugin::default())
+    MinimalPlugins
+        .build()
+        .add(LogPlugin::default())
+        .add(TransformPlugin)
+        .add(InputPlugin)
+        .add(AssetPlugin::default())
         .add(ScriptedRun)
 }
 
@@ -51,8 +40,11 @@ struct ScriptedRun;
 
 impl Plugin for ScriptedRun {
     fn build(&self, app: &mut App) {
-        app.insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
-            .add_systems(PreUpdate, hold_keys.after(bevy::input::InputSystems))
+        // Only so that the example can spawn what nobody will look at.
+        app.init_asset::<Mesh>()
+            .init_asset::<StandardMaterial>()
+            .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
+            .add_systems(PreUpdate, hold_keys.after(InputSystems))
             .add_systems(FixedLast, report);
     }
 }

@@ -17,7 +17,7 @@ impl Plugin for LightPlugin {
             .insert_resource(DirectionalLightShadowMap { size: 2048 })
             .insert_resource(GlobalAmbientLight {
                 color: Color::srgb(0.85, 0.92, 1.0),
-                brightness: 450.0,
+                brightness: 380.0,
                 ..default()
             })
             .add_systems(Startup, sun);
@@ -31,8 +31,8 @@ pub(super) fn haze() -> DistanceFog {
         directional_light_color: Color::srgba(1.0, 0.95, 0.8, 0.25),
         directional_light_exponent: 12.0,
         falloff: FogFalloff::Linear {
-            start: 50.0,
-            end: 220.0,
+            start: 70.0,
+            end: 320.0,
         },
     }
 }
@@ -42,7 +42,7 @@ fn sun(mut commands: Commands) {
         Name::new("sun"),
         DirectionalLight {
             color: Color::srgb(1.0, 0.96, 0.88),
-            illuminance: 9_000.0,
+            illuminance: 11_000.0,
             shadow_maps_enabled: true,
             ..default()
         },
@@ -53,6 +53,6 @@ fn sun(mut commands: Commands) {
             ..default()
         }
         .build(),
-        Transform::from_xyz(-6.0, 10.0, 5.0).looking_at(Vec3::ZERO, Vec3::Y),
+        Transform::from_xyz(-7.0, 9.0, 5.0).looking_at(Vec3::ZERO, Vec3::Y),
     ));
 }

@@ -38,7 +38,7 @@ impl Plugin for ShotPlugin {
         ))
         .insert_resource(self.0.clone())
         .add_systems(PostStartup, aim)
-        .add_systems(Update, shoot);
+        .add_systems(Update, (shoot, finish.run_if(resource_exists::<Taken>)));
     }
 }
 
@@ -60,15 +60,22 @@ fn shoot(mut frame: Local<u32>, shot: Res<Shot>, mut commands: Commands) {
     *frame += 1;
     let wanted = (shot.seconds.max(0.1) * RATE).round() as u32;
     if *frame == wanted {
+        // An older picture must not pass for this one.
+        let _ = std::fs::remove_file(&shot.file);
         commands
             .spawn(Screenshot::primary_window())
             .observe(save_to_disk(shot.file.clone()))
-            .observe(finish);
+            .observe(|_: On<ScreenshotCaptured>, mut commands: Commands| {
+                commands.insert_resource(Taken);
+            });
     }
 }
 
-/// Runs after the file was written; both watch the same event in this order.
-fn finish(_: On<ScreenshotCaptured>, shot: Res<Shot>, mut exit: MessageWriter<AppExit>) {
+/// The picture was handed to all who save it.
+#[derive(Resource)]
+struct Taken;
+
+fn finish(shot: Res<Shot>, mut exit: MessageWriter<AppExit>) {
     exit.write(if shot.file.is_file() {
         AppExit::Success
     } else {

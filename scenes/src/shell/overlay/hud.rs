@@ -138,7 +138,7 @@ fn write_state(
             ),
             HudPart::State => (
                 format!(
-                    "{:?}, {:.2} m tall, slope {slope:.0}°, rise {rise:+.2} m/s\n{} contacts, {} queries\n{}",
+                    "{:?}, {:.2} m tall, slope {slope:.0} deg, rise {rise:+.2} m/s\n{} contacts, {} queries\n{}",
                     state.mode,
                     state.height,
                     contacts.contacts.len(),
