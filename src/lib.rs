@@ -8,6 +8,7 @@ pub mod debug;
 #[cfg(feature = "character")]
 mod diagnostics;
 pub mod interpolation;
+mod math;
 mod schedule;
 mod teleport;
 
