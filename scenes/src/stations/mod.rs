@@ -13,6 +13,7 @@ pub mod trace;
 
 mod ground;
 mod machines;
+mod measure;
 mod obstacles;
 mod places;
 mod slopes;

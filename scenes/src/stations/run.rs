@@ -262,11 +262,11 @@ impl StationRun {
     fn intent(&self, sample: &Sample) -> CharacterIntent {
         let place = &self.station.place;
         let movement = match self.current() {
-            Some(Step::Walk { to, .. }) => {
+            Some(Step::Walk { to, up, .. }) => {
                 let way = *to - sample.foot;
-                Vec3::new(way.x, 0.0, way.z).normalize_or_zero()
+                Vec3::new(way.x, 0.0, way.z).normalize_or_zero() + Vec3::Y * *up
             }
-            Some(Step::Hold { movement, .. } | Step::ClimbTo { movement, .. }) => *movement,
+            Some(Step::Hold { movement, .. }) => *movement,
             Some(Step::Orbit { axis, center, .. }) => {
                 axis.cross(sample.foot - *center).normalize_or_zero()
             }
@@ -302,13 +302,11 @@ fn outcome(step: &Step, sample: &Sample, elapsed: f64, turned: f32, dt: f64) -> 
             to,
             within,
             timeout,
+            ..
         } => {
             let way = *to - sample.foot;
             (Vec2::new(way.x, way.z).length() <= *within, *timeout)
         }
-        Step::ClimbTo {
-            height, timeout, ..
-        } => (sample.foot.y >= *height, *timeout),
         Step::Orbit { angle, timeout, .. } => (turned >= *angle, *timeout),
         Step::Hold { seconds, .. } | Step::Wait(seconds) | Step::Jump(seconds) => {
             (over(*seconds), f32::INFINITY)

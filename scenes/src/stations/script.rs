@@ -12,6 +12,8 @@ pub enum Step {
         to: Vec3,
         /// How near counts as there, metres on the map.
         within: f32,
+        /// How much of the asked movement is upwards, for ladders and water.
+        up: f32,
         /// Gives up after this long, seconds.
         timeout: f32,
     },
@@ -21,15 +23,6 @@ pub enum Step {
         movement: Vec3,
         /// How long, seconds.
         seconds: f32,
-    },
-    /// Walks in a direction until its foot is this high.
-    ClimbTo {
-        /// The direction; its length is the fraction of full speed.
-        movement: Vec3,
-        /// Height of the foot, metres.
-        height: f32,
-        /// Gives up after this long, seconds.
-        timeout: f32,
     },
     /// Walks straight on along a great circle of a planet.
     Orbit {
@@ -58,6 +51,7 @@ impl Step {
         Self::Walk {
             to,
             within: 0.3,
+            up: 0.0,
             timeout,
         }
     }
@@ -79,9 +73,6 @@ impl Step {
             Self::Hold { movement, seconds } => {
                 format!("walk along ({:.2}, {:.2}) for {seconds:.1} s", movement.x, movement.z)
             }
-            Self::ClimbTo {
-                height, timeout, ..
-            } => format!("climb to {height:.2} m within {timeout:.1} s"),
             Self::Orbit { angle, timeout, .. } => format!(
                 "go {:.0} degrees round within {timeout:.1} s",
                 angle.to_degrees()

@@ -251,6 +251,27 @@ pub mod terrain {
             + 0.07 * ops::sin(2.9 * x + 1.3) * ops::sin(2.3 * z);
         BORDER + edge(x) * edge(z) * waves
     }
+
+    /// Height of the triangles at a point relative to the middle, not outside of it.
+    pub fn mesh_height(x: f32, z: f32) -> f32 {
+        let spacing = 2.0 * HALF / SQUARES as f32;
+        let at = |v: f32| {
+            let squares = (v + HALF) / spacing;
+            let square = ops::floor(squares).clamp(0.0, SQUARES as f32 - 1.0);
+            (square, squares - square)
+        };
+        let ((column, u), (row, v)) = (at(x), at(z));
+        let corner =
+            |i: f32, k: f32| height(-HALF + spacing * (column + i), -HALF + spacing * (row + k));
+        let (b, c) = (corner(1.0, 0.0), corner(0.0, 1.0));
+        if u + v <= 1.0 {
+            let a = corner(0.0, 0.0);
+            a + u * (b - a) + v * (c - a)
+        } else {
+            let d = corner(1.0, 1.0);
+            d + (1.0 - u) * (c - d) + (1.0 - v) * (b - d)
+        }
+    }
 }
 
 /// A wood of round pillars.
