@@ -29,12 +29,7 @@ impl Plugin for EmbodyDebugPlugin {
         .add_systems(FixedLast, (lay_trails, remember_steps).chain())
         .add_systems(
             PostUpdate,
-            (
-                draw_bodies,
-                draw_contacts,
-                draw_steps,
-                draw_velocities,
-            )
+            (draw_bodies, draw_contacts, draw_steps, draw_velocities)
                 .after(TransformSystems::Propagate),
         );
     }
@@ -101,7 +96,14 @@ fn draw_bodies(
             continue;
         }
         if shown.outline {
-            draw_outline(&mut gizmos, &character.shape, state.height, foot, rotation, color);
+            draw_outline(
+                &mut gizmos,
+                &character.shape,
+                state.height,
+                foot,
+                rotation,
+                color,
+            );
         }
         if shown.ground && state.ground.entity.is_some() {
             let ground = &state.ground;

@@ -44,6 +44,10 @@ fn single_step(mut time: ResMut<Time<Virtual>>, mut fixed: ResMut<Time<Fixed>>) 
 }
 
 fn slow_motion(mut time: ResMut<Time<Virtual>>) {
-    let speed = if time.relative_speed() < 1.0 { 1.0 } else { SLOW };
+    let speed = if time.relative_speed() < 1.0 {
+        1.0
+    } else {
+        SLOW
+    };
     time.set_relative_speed(speed);
 }

@@ -58,7 +58,10 @@ fn hold_keys(mut keys: ResMut<ButtonInput<KeyCode>>, time: Res<Time<Fixed>>) {
     }
 }
 
-#[expect(clippy::print_stdout, reason = "the report is what a headless run is for")]
+#[expect(
+    clippy::print_stdout,
+    reason = "the report is what a headless run is for"
+)]
 fn report(
     mut ticks: Local<u32>,
     mut starts: Local<Vec<(Entity, Vec3)>>,

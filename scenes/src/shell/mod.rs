@@ -9,7 +9,6 @@ mod course_view;
 mod demo;
 pub mod figure;
 pub mod input;
-mod labels;
 mod light;
 mod overlay;
 mod player;
@@ -55,7 +54,7 @@ impl Plugin for ShellPlugin {
     }
 }
 
-/// The course with its looks, station names and the menu of stations.
+/// The course with its looks and the menu of stations.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CourseShellPlugin;
 
@@ -65,7 +64,6 @@ impl Plugin for CourseShellPlugin {
             CoursePlugin,
             course_view::CourseViewPlugin,
             visit::VisitPlugin,
-            labels::LabelsPlugin,
         ));
     }
 }

@@ -9,7 +9,10 @@ use bevy::{
     time::TimeUpdateStrategy,
 };
 
-use super::camera::{CameraMode, CameraRig};
+use super::{
+    camera::{CameraMode, CameraRig},
+    visit::ReadyToWalk,
+};
 
 /// Frames per second of the picture's time.
 const RATE: f32 = 60.0;
@@ -33,11 +36,11 @@ pub struct ShotPlugin(pub Shot);
 
 impl Plugin for ShotPlugin {
     fn build(&self, app: &mut App) {
-        app.insert_resource(TimeUpdateStrategy::ManualDuration(
-            Duration::from_secs_f32(1.0 / RATE),
-        ))
+        app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs_f32(
+            1.0 / RATE,
+        )))
         .insert_resource(self.0.clone())
-        .add_systems(PostStartup, aim)
+        .add_systems(PostStartup, aim.after(ReadyToWalk))
         .add_systems(Update, (shoot, finish.run_if(resource_exists::<Taken>)));
     }
 }

@@ -89,7 +89,12 @@ impl Plugin for VisitPlugin {
         app.init_resource::<Visit>()
             .init_resource::<Start>()
             .add_systems(Startup, (begin, announce).chain())
-            .add_systems(PostStartup, play.run_if(|start: Res<Start>| start.play))
+            .add_systems(
+                PostStartup,
+                (face_start, play.run_if(|start: Res<Start>| start.play))
+                    .chain()
+                    .in_set(ReadyToWalk),
+            )
             .add_systems(
                 Update,
                 (
@@ -103,6 +108,19 @@ impl Plugin for VisitPlugin {
             )
             .add_systems(Update, catch_falling)
             .add_systems(FixedUpdate, advance.run_if(resource_exists::<Playing>));
+    }
+}
+
+/// The player and the camera are at the start after this, in `PostStartup`.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct ReadyToWalk;
+
+/// Turns the camera to where the player looks.
+fn face_start(visit: Res<Visit>, mut rigs: Query<&mut CameraRig>) {
+    if let Some(stop) = visit.stop() {
+        for mut rig in &mut rigs {
+            rig.reset_to(&stop.start);
+        }
     }
 }
 
@@ -224,8 +242,7 @@ fn play(world: &mut World) {
     let Some(station) = stations().into_iter().nth(current) else {
         return;
     };
-    let mut players =
-        world.query_filtered::<(Entity, &Character, &CharacterMotor), With<Player>>();
+    let mut players = world.query_filtered::<(Entity, &Character, &CharacterMotor), With<Player>>();
     let Ok((walker, character, motor)) = players.single(world) else {
         return;
     };

@@ -1,8 +1,6 @@
 //! The window, or the lack of one.
 
-use bevy::{
-    app::PluginGroupBuilder, prelude::*, render::RenderPlugin, window::WindowResolution,
-};
+use bevy::{app::PluginGroupBuilder, prelude::*, render::RenderPlugin, window::WindowResolution};
 
 /// Whether a window can be opened: on Linux, whether an X or Wayland server is named in the
 /// environment.

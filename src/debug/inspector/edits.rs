@@ -56,9 +56,7 @@ impl TuningEdits {
     ) {
         // A part set before the whole would be lost or would not exist any more.
         self.waiting.retain(|edit| {
-            edit.entity != entity
-                || edit.component != component
-                || !is_part_of(&edit.path, &path)
+            edit.entity != entity || edit.component != component || !is_part_of(&edit.path, &path)
         });
         self.waiting.push(Edit {
             entity,
@@ -77,9 +75,7 @@ impl TuningEdits {
     ) -> Option<&dyn PartialReflect> {
         self.waiting
             .iter()
-            .find(|edit| {
-                edit.entity == entity && edit.component == component && edit.path == path
-            })
+            .find(|edit| edit.entity == entity && edit.component == component && edit.path == path)
             .map(|edit| edit.value.as_partial_reflect())
     }
 }

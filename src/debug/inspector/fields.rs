@@ -236,7 +236,6 @@ fn spoken(name: &str) -> String {
     text
 }
 
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -261,7 +260,11 @@ mod tests {
     #[test]
     fn looking_at_a_character_changes_nothing_of_it() {
         let mut edits = TuningEdits::default();
-        draw(&mut edits, &Character::default(), &CharacterMotor::default());
+        draw(
+            &mut edits,
+            &Character::default(),
+            &CharacterMotor::default(),
+        );
         let odd = CharacterMotor {
             acceleration: f32::INFINITY,
             walk_speed: f32::NAN,
@@ -274,7 +277,12 @@ mod tests {
 
     #[test]
     fn every_part_is_found_again_by_its_path() {
-        fn check(root: &dyn PartialReflect, value: &dyn PartialReflect, path: &str, seen: &mut usize) {
+        fn check(
+            root: &dyn PartialReflect,
+            value: &dyn PartialReflect,
+            path: &str,
+            seen: &mut usize,
+        ) {
             for (_, step, field) in parts(value) {
                 let path = format!("{path}{step}");
                 let found = bevy::reflect::ParsedPath::parse(&path)
@@ -286,10 +294,16 @@ mod tests {
             }
         }
         trait ElementOf {
-            fn reflect_element_of<'r>(&self, root: &'r dyn PartialReflect) -> &'r dyn PartialReflect;
+            fn reflect_element_of<'r>(
+                &self,
+                root: &'r dyn PartialReflect,
+            ) -> &'r dyn PartialReflect;
         }
         impl ElementOf for bevy::reflect::ParsedPath {
-            fn reflect_element_of<'r>(&self, root: &'r dyn PartialReflect) -> &'r dyn PartialReflect {
+            fn reflect_element_of<'r>(
+                &self,
+                root: &'r dyn PartialReflect,
+            ) -> &'r dyn PartialReflect {
                 use bevy::reflect::ReflectPath;
                 self.reflect_element(root).unwrap()
             }

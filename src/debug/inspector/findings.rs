@@ -77,7 +77,10 @@ pub(super) fn show(
                 let text = RichText::new(name(contact.entity));
                 ui.label(if contact.blocked { text.strong() } else { text });
                 ui.label(format!("{:.1}", -contact.distance * 1000.0));
-                ui.label(format!("{:.0}°", contact.normal.angle_between(state.up).to_degrees()));
+                ui.label(format!(
+                    "{:.0}°",
+                    contact.normal.angle_between(state.up).to_degrees()
+                ));
                 ui.label(format!("{:.1}", contact.impulse.length()));
                 ui.end_row();
             }

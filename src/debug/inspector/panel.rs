@@ -1,20 +1,15 @@
 //! The window of the panel.
 
-use bevy::{
-    ecs::query::QueryData,
-    prelude::*,
-};
+use bevy::{ecs::query::QueryData, prelude::*};
 use bevy_egui::{
     EguiContexts,
     egui::{self, CollapsingHeader, ScrollArea},
 };
 
 use super::{InspectorPanel, edits::TuningEdits, fields::Form, findings, plots, record::Record};
+use crate::character::{Character, CharacterContacts, CharacterMotor, CharacterState, StepAttempt};
 #[cfg(feature = "debug")]
 use crate::debug::StepTrail;
-use crate::character::{
-    Character, CharacterContacts, CharacterMotor, CharacterState, StepAttempt,
-};
 
 /// What the panel shows of a character.
 #[derive(QueryData)]
@@ -49,7 +44,7 @@ pub(super) fn show(
         .open(&mut open)
         .default_pos([16.0, 16.0])
         .default_width(330.0)
-        .default_height(640.0)
+        .default_height(560.0)
         .show(context, |ui| {
             let mut all: Vec<Entity> = characters.iter().map(|(entity, _)| entity).collect();
             all.sort_unstable();

@@ -1,6 +1,6 @@
 //! Curves over the last seconds.
 
-use bevy_egui::egui::{Color32, Ui};
+use bevy_egui::egui::{Color32, Rangef, Ui};
 use egui_plot::{Corner, Legend, Line, Plot, PlotPoints};
 
 use super::record::Record;
@@ -29,22 +29,27 @@ pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
     let level = curve(&|sample| sample.level.into());
     let rise = curve(&|sample| sample.rise.into());
     base("speed", seconds)
-        .height(120.0)
+        .height(100.0)
+        .grid_spacing(Rangef::new(8.0, 40.0))
         .include_y(0.0)
         .include_y(6.0)
         .legend(Legend::default().position(Corner::LeftTop))
         .show(ui, |plot| {
             plot.line(
-                Line::new("level m/s", PlotPoints::from(level)).color(Color32::from_rgb(250, 204, 21)),
+                Line::new("level m/s", PlotPoints::from(level))
+                    .color(Color32::from_rgb(250, 204, 21)),
             );
             plot.line(
-                Line::new("rise m/s", PlotPoints::from(rise)).color(Color32::from_rgb(56, 189, 248)),
+                Line::new("rise m/s", PlotPoints::from(rise))
+                    .color(Color32::from_rgb(56, 189, 248)),
             );
         });
 
     let states = steps(&curve(&|sample| level_of(sample.ground)));
     base("ground", seconds)
         .height(80.0)
+        // Labels fade with the spacing of their lines: these are always wanted.
+        .grid_spacing(Rangef::new(1.0, 8.0))
         .include_y(-0.3)
         .include_y(3.3)
         .y_axis_formatter(|mark, _| {
@@ -64,7 +69,8 @@ pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
         })
         .show(ui, |plot| {
             plot.line(
-                Line::new("ground", PlotPoints::from(states)).color(Color32::from_rgb(74, 222, 128)),
+                Line::new("ground", PlotPoints::from(states))
+                    .color(Color32::from_rgb(74, 222, 128)),
             );
         });
 }

@@ -31,7 +31,10 @@ impl Record {
     fn add(&mut self, of: Entity, sample: Sample, kept: f64) {
         // A clock that went back means another run.
         let runs_on = self.of == Some(of)
-            && self.samples.back().is_none_or(|last| last.time <= sample.time);
+            && self
+                .samples
+                .back()
+                .is_none_or(|last| last.time <= sample.time);
         if !runs_on {
             self.samples.clear();
             self.of = Some(of);

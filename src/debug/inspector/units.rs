@@ -33,7 +33,11 @@ mod tests {
 
     #[test]
     fn every_number_of_a_character_has_a_unit_or_is_known_to_have_none() {
-        for info in [Character::type_info(), CharacterMotor::type_info(), StepConfig::type_info()] {
+        for info in [
+            Character::type_info(),
+            CharacterMotor::type_info(),
+            StepConfig::type_info(),
+        ] {
             let TypeInfo::Struct(info) = info else {
                 panic!("a config is a struct")
             };

@@ -86,10 +86,12 @@ fn prism(width: f32, height: f32) -> Vec<Vec3> {
     [0.0, height]
         .into_iter()
         .flat_map(|y| {
-            [(half, cut), (cut, half)].into_iter().flat_map(move |(a, b)| {
-                [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
-                    .map(|(x, z)| Vec3::new(a * x, y, b * z))
-            })
+            [(half, cut), (cut, half)]
+                .into_iter()
+                .flat_map(move |(a, b)| {
+                    [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                        .map(|(x, z)| Vec3::new(a * x, y, b * z))
+                })
         })
         .collect()
 }
@@ -126,7 +128,10 @@ mod tests {
         for name in ["Cylinder", "Box", "ConvexHull"] {
             let changed = shape(&capsule, name);
             assert!((changed.height() - 2.0).abs() < 1e-6, "{changed:?}");
-            assert!(changed.radius() > 0.39 && changed.radius() < 0.57, "{changed:?}");
+            assert!(
+                changed.radius() > 0.39 && changed.radius() < 0.57,
+                "{changed:?}"
+            );
         }
     }
 

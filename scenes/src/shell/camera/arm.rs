@@ -36,7 +36,11 @@ pub(super) fn place(
             continue;
         }
         let eye = height - 0.15;
-        let blend = if rig.eye == 0.0 { 1.0 } else { 1.0 - ops::exp(-EYE * seconds) };
+        let blend = if rig.eye == 0.0 {
+            1.0
+        } else {
+            1.0 - ops::exp(-EYE * seconds)
+        };
         rig.eye += (eye - rig.eye) * blend;
         let up = rig.base * Vec3::Y;
         let eyes = pose.translation + view.offset(fixed.overstep_fraction()) + up * rig.eye;

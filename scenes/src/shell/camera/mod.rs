@@ -166,7 +166,10 @@ mod tests {
         let mut app = App::new();
         app.add_systems(Update, follow_up);
         let rig = app.world_mut().spawn(CameraRig::default()).id();
-        let player = app.world_mut().spawn((Player, CharacterState::default())).id();
+        let player = app
+            .world_mut()
+            .spawn((Player, CharacterState::default()))
+            .id();
         let mut last = Quat::IDENTITY;
         // Over the pole and down the other side of a planet.
         for step in 0..=360u16 {

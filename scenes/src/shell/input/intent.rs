@@ -64,11 +64,13 @@ fn axis<A: InputAction<Output = Vec2>>(app: &mut App, set: fn(&mut Controls, Vec
             set(&mut controls, event.value);
         }
     })
-    .add_observer(move |event: On<Complete<A>>, mut all: Query<&mut Controls>| {
-        if let Ok(mut controls) = all.get_mut(event.context) {
-            set(&mut controls, Vec2::ZERO);
-        }
-    });
+    .add_observer(
+        move |event: On<Complete<A>>, mut all: Query<&mut Controls>| {
+            if let Ok(mut controls) = all.get_mut(event.context) {
+                set(&mut controls, Vec2::ZERO);
+            }
+        },
+    );
 }
 
 /// Hands on when a button goes down and when it comes up.
@@ -78,11 +80,13 @@ fn button<A: InputAction<Output = bool>>(app: &mut App, set: fn(&mut Controls, b
             set(&mut controls, true);
         }
     })
-    .add_observer(move |event: On<Complete<A>>, mut all: Query<&mut Controls>| {
-        if let Ok(mut controls) = all.get_mut(event.context) {
-            set(&mut controls, false);
-        }
-    });
+    .add_observer(
+        move |event: On<Complete<A>>, mut all: Query<&mut Controls>| {
+            if let Ok(mut controls) = all.get_mut(event.context) {
+                set(&mut controls, false);
+            }
+        },
+    );
 }
 
 /// Turns what was asked into the intent of the tick that begins.
@@ -110,8 +114,7 @@ fn write_intent(
             } else {
                 Stance::Stand
             },
-            facing: (rig.mode == CameraMode::FirstPerson)
-                .then(|| rig.heading() * Vec3::NEG_Z),
+            facing: (rig.mode == CameraMode::FirstPerson).then(|| rig.heading() * Vec3::NEG_Z),
         };
     }
 }

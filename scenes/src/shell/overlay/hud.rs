@@ -172,7 +172,7 @@ fn clocks(diagnostics: &DiagnosticsStore, fixed: &Time<Fixed>, clock: &Time<Virt
             .unwrap_or(0.0)
     };
     let mut line = format!(
-        "{:.0} fps, {:.0} Hz, {:.3} ms per tick",
+        "{:.1} fps, {:.0} Hz, {:.3} ms per tick",
         smooth(&FrameTimeDiagnosticsPlugin::FPS),
         1.0 / fixed.timestep().as_secs_f64(),
         smooth(&CharacterDiagnostics::TICK_TIME),
