@@ -83,6 +83,10 @@ impl Plugin for EmbodyInterpolationPlugin {
             notice_jumps
                 .in_set(PhysicsSet::SyncBackend)
                 .before(update_character_controls),
+        )
+        .add_systems(
+            FixedLast,
+            leave_resting_alone.after(TransformEasingSystems::UpdateEnd),
         );
     }
 
@@ -164,6 +168,25 @@ fn notice_jumps(
             if let Some(mut rotation) = rotation {
                 rotation.start = None;
             }
+        }
+    }
+}
+
+/// Easing would write the same pose each frame, which looks like a change to everyone who asks.
+fn leave_resting_alone(
+    mut eased: Query<(
+        &mut TranslationEasingState,
+        Option<&mut RotationEasingState>,
+    )>,
+) {
+    for (mut translation, rotation) in &mut eased {
+        if translation.start == translation.end {
+            *translation = TranslationEasingState::default();
+        }
+        if let Some(mut rotation) = rotation
+            && rotation.start == rotation.end
+        {
+            *rotation = RotationEasingState::default();
         }
     }
 }

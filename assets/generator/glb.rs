@@ -4,7 +4,11 @@ use bevy::math::Vec3;
 use embody_scenes::course::extras::{EXTRAS_KEY, NodeExtras};
 use serde_json::{Value, json};
 
-use crate::{level::Level, mesh::Part, paint::Paint};
+use crate::{
+    level::Level,
+    mesh::{Mesh, Part},
+    paint::Paint,
+};
 
 const FLOAT: u32 = 5126;
 const BYTE: u32 = 5121;
@@ -124,7 +128,8 @@ fn material(paint: Paint) -> Value {
 /// The whole file.
 pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
     let mut buffer = Buffer::default();
-    let mut meshes = Vec::new();
+    let mut meshes: Vec<Value> = Vec::new();
+    let mut known: Vec<&Mesh> = Vec::new();
     let mut nodes = Vec::new();
     for node in &level.nodes {
         let mut json = json!({ "name": node.name });
@@ -136,14 +141,22 @@ pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
             json["rotation"] = json!(at.rotation.to_array());
         }
         if !node.mesh.parts.is_empty() {
-            let primitives: Vec<Value> = node
-                .mesh
-                .parts
-                .iter()
-                .map(|(paint, part)| buffer.primitive(*paint, part))
-                .collect();
-            json["mesh"] = json!(meshes.len());
-            meshes.push(json!({ "name": node.name, "primitives": primitives }));
+            // Things that look the same share a mesh.
+            let mesh = match known.iter().position(|mesh| mesh.same(&node.mesh)) {
+                Some(mesh) => mesh,
+                None => {
+                    let primitives: Vec<Value> = node
+                        .mesh
+                        .parts
+                        .iter()
+                        .map(|(paint, part)| buffer.primitive(*paint, part))
+                        .collect();
+                    meshes.push(json!({ "name": node.name, "primitives": primitives }));
+                    known.push(&node.mesh);
+                    meshes.len() - 1
+                }
+            };
+            json["mesh"] = json!(mesh);
         }
         if node.extras != NodeExtras::default() {
             json["extras"] = json!({ EXTRAS_KEY: serde_json::to_value(&node.extras)? });

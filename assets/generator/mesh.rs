@@ -1,12 +1,12 @@
 //! Triangles, by paint.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use bevy::math::{Vec2, Vec3};
 
 use crate::paint::Paint;
 
-/// Triangles of one paint. Corners are never shared between faces of different direction.
+/// Triangles of one paint.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
     pub positions: Vec<Vec3>,
@@ -14,6 +14,8 @@ pub struct Part {
     /// Linear brightness of the paint per corner, 255 is all of it.
     pub tints: Vec<[u8; 3]>,
     pub indices: Vec<u32>,
+    /// Corners by all that they are, so that equal ones are written once.
+    known: HashMap<([u32; 6], [u8; 3]), u32>,
 }
 
 /// What a node looks like.
@@ -45,6 +47,18 @@ impl Mesh {
         self.parts.values().map(|part| part.indices.len() / 3).sum()
     }
 
+    /// Whether two meshes are the same triangles.
+    pub fn same(&self, other: &Self) -> bool {
+        self.parts.len() == other.parts.len()
+            && self.parts.iter().zip(&other.parts).all(|((p, a), (q, b))| {
+                p == q
+                    && a.positions == b.positions
+                    && a.normals == b.normals
+                    && a.tints == b.tints
+                    && a.indices == b.indices
+            })
+    }
+
     /// Shades what follows, 255 is the paint as it is.
     pub fn tint(&mut self, tint: u8) -> &mut Self {
         self.tint = [tint; 3];
@@ -54,10 +68,17 @@ impl Mesh {
     fn corner(&mut self, paint: Paint, position: Vec3, normal: Vec3) -> u32 {
         let tint = self.tint;
         let part = self.parts.entry(paint).or_default();
-        part.positions.push(position);
-        part.normals.push(normal);
-        part.tints.push(tint);
-        (part.positions.len() - 1) as u32
+        let [px, py, pz] = position.to_array().map(f32::to_bits);
+        let [nx, ny, nz] = normal.to_array().map(f32::to_bits);
+        *part
+            .known
+            .entry(([px, py, pz, nx, ny, nz], tint))
+            .or_insert_with(|| {
+                part.positions.push(position);
+                part.normals.push(normal);
+                part.tints.push(tint);
+                (part.positions.len() - 1) as u32
+            })
     }
 
     fn index(&mut self, paint: Paint, corners: [u32; 3]) {

@@ -174,7 +174,7 @@ fn wavy(level: &mut Level) {
     // Squares in two shades would need corners of their own; height shades the ground instead.
     mesh.grid(Paint::Leaf, n + 1, &points);
     if let Some(part) = mesh.parts.get_mut(&Paint::Leaf) {
-        for (tint, (point, _)) in part.tints.iter_mut().zip(&points) {
+        for (tint, point) in part.tints.iter_mut().zip(&part.positions) {
             let shade = (150.0 + 85.0 * point.y).clamp(120.0, 255.0);
             *tint = [shade as u8; 3];
         }

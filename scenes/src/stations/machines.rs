@@ -266,7 +266,8 @@ fn push(item: Crate) -> Station {
             .step(1)
             .windows(2)
             .map(speed)
-            .fold(f64::NEG_INFINITY, f64::max);
+            .reduce(f64::max)
+            .unwrap_or(f64::NAN);
         Verdict::at_most(most, bound, format!("{most:.2} m/s at most"))
     });
     // Light crates reach the walker's speed, heavy ones are still getting there after two seconds.

@@ -26,7 +26,8 @@ pub fn never_backwards(samples: &[Sample], direction: Vec3) -> Verdict {
     let worst = samples
         .windows(2)
         .map(|pair| (pair[1].foot - pair[0].foot).dot(direction))
-        .fold(f32::INFINITY, f32::min);
+        .reduce(f32::min)
+        .unwrap_or(f32::NAN);
     Verdict::new(worst >= -1e-4, format!("least tick {:+.2} mm", worst * 1e3))
 }
 

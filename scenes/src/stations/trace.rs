@@ -78,14 +78,19 @@ pub fn crossing(samples: &[Sample], quantity: impl Fn(&Sample) -> f32, value: f3
     })
 }
 
-/// The least and the greatest value of a quantity.
+/// The least and the greatest value of a quantity; NaN if there are no samples or one is NaN, so
+/// that what never happened meets no bound.
 pub fn range(samples: &[Sample], quantity: impl Fn(&Sample) -> f32) -> (f32, f32) {
-    samples
-        .iter()
-        .map(quantity)
-        .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
+    let values = samples.iter().map(quantity).map(|value| (value, value));
+    values
+        .reduce(|(low, high), (value, _)| {
+            if value.is_nan() || low.is_nan() {
+                (f32::NAN, f32::NAN)
+            } else {
+                (low.min(value), high.max(value))
+            }
         })
+        .unwrap_or((f32::NAN, f32::NAN))
 }
 
 /// Length of the path of the foot, metres.

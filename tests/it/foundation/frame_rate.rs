@@ -1,9 +1,6 @@
 //! A tick does the same, however many of them a frame has.
 
-use std::{
-    hash::{DefaultHasher, Hasher},
-    time::Duration,
-};
+use std::time::Duration;
 
 use bevy::{app::Plugins, prelude::*, time::TimeUpdateStrategy};
 use bevy_embody::prelude::*;
@@ -12,21 +9,24 @@ use embody_scenes::Sim;
 
 const TICKS: usize = 240;
 
-/// A hash of all poses for each tick.
+/// The bits of a pose.
+type Bits = [u32; 7];
+
+/// The poses of all entities for each tick.
 #[derive(Resource, Default)]
-struct Record(Vec<u64>);
+struct Record(Vec<Vec<(Entity, Bits)>>);
 
 fn record(mut record: ResMut<Record>, bodies: Query<(Entity, &Transform)>) {
-    let mut bodies: Vec<_> = bodies.iter().collect();
-    bodies.sort_by_key(|(entity, _)| *entity);
-    let mut hash = DefaultHasher::new();
-    for (_, transform) in bodies {
-        let translation = transform.translation.to_array();
-        for value in translation.into_iter().chain(transform.rotation.to_array()) {
-            hash.write_u32(value.to_bits());
-        }
-    }
-    record.0.push(hash.finish());
+    let mut poses: Vec<_> = bodies
+        .iter()
+        .map(|(entity, transform)| {
+            let [x, y, z] = transform.translation.to_array();
+            let [a, b, c, d] = transform.rotation.to_array();
+            (entity, [x, y, z, a, b, c, d].map(f32::to_bits))
+        })
+        .collect();
+    poses.sort_by_key(|(entity, _)| *entity);
+    record.0.push(poses);
 }
 
 /// Drives the lift, throws a ball now and then, and asks the character to walk about.
@@ -54,7 +54,7 @@ fn script(
     }
 }
 
-fn run<M>(plugins: impl Plugins<M>, strategy: TimeUpdateStrategy) -> Vec<u64> {
+fn run<M>(plugins: impl Plugins<M>, strategy: TimeUpdateStrategy) -> Vec<Vec<(Entity, Bits)>> {
     let mut sim = Sim::with(60.0, plugins);
     sim.app
         .insert_resource(strategy)
@@ -87,18 +87,31 @@ fn run<M>(plugins: impl Plugins<M>, strategy: TimeUpdateStrategy) -> Vec<u64> {
     while sim.app.world().resource::<Record>().0.len() < TICKS {
         sim.ticks(1);
     }
-    let mut hashes = sim.app.world().resource::<Record>().0.clone();
-    hashes.truncate(TICKS);
-    hashes
+    let mut ticks = core::mem::take(&mut sim.app.world_mut().resource_mut::<Record>().0);
+    ticks.truncate(TICKS);
+    ticks
 }
 
 fn exact() -> bevy::app::PluginGroupBuilder {
     EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>()
 }
 
-fn assert_same(name: &str, expected: &[u64], found: &[u64]) {
-    let first = expected.iter().zip(found).position(|(a, b)| a != b);
-    assert_eq!(first, None, "{name}: the ticks differ from this one on");
+type Ticks = [Vec<(Entity, Bits)>];
+
+fn assert_same(name: &str, expected: &Ticks, found: &Ticks) {
+    for (tick, (expected, found)) in expected.iter().zip(found).enumerate() {
+        for (a, b) in expected.iter().zip(found) {
+            let values = |bits: Bits| bits.map(f32::from_bits);
+            assert!(
+                a == b,
+                "{name}: in tick {tick} {} is at {:?}, not at {:?}",
+                a.0,
+                values(b.1),
+                values(a.1),
+            );
+        }
+        assert_eq!(expected.len(), found.len());
+    }
 }
 
 #[test]

@@ -167,6 +167,27 @@ fn bodies_moved_by_the_game_between_ticks_are_not_smeared() {
     }
 }
 
+#[test]
+fn a_body_at_rest_is_not_touched() {
+    let mut sim = sim();
+    let body = ball(&mut sim, 0.0);
+    sim.ticks(3 * FRAMES_PER_TICK);
+    sim.app.add_systems(
+        PostUpdate,
+        |changed: Query<Entity, (Changed<Transform>, With<Interpolated>)>,
+         mut frames: Local<u32>| {
+            *frames += 1;
+            assert!(
+                *frames == 1 || changed.is_empty(),
+                "changed in frame {}",
+                *frames
+            );
+        },
+    );
+    sim.ticks(3 * FRAMES_PER_TICK);
+    assert_eq!(sim.position(body), Vec3::ZERO);
+}
+
 /// Stops a body that moves and puts it where it was when the last tick began.
 fn move_back(frame: usize, tell: bool) {
     let mut sim = sim();
