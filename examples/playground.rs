@@ -20,6 +20,9 @@ use embody_scenes::{
     stations::{StationResult, print_table, run_headless},
 };
 
+/// The name that stands for the whole course in a picture.
+const OVERVIEW: &str = "overview";
+
 #[derive(Parser)]
 struct Options {
     /// Visits every station without a window and prints a table.
@@ -41,7 +44,7 @@ struct Options {
     #[arg(long, default_value_t = 1.0)]
     seconds: f32,
     /// Turn and pitch of the picture's camera, degrees, and its distance, metres.
-    #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
+    #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
     view: Option<Vec<f32>>,
     /// Shows the gizmos from the start.
     #[arg(long)]
@@ -93,9 +96,10 @@ fn window(options: &Options) -> Result<ExitCode, CourseError> {
         .insert_resource(Switches {
             gizmos: options.gizmos,
             panel: options.panel,
+            display: options.station.as_deref() != Some(OVERVIEW),
         })
         .insert_resource(Start {
-            station: options.station.clone().filter(|name| name != "overview"),
+            station: options.station.clone().filter(|name| name != OVERVIEW),
             play: picture,
         })
         .add_plugins((EmbodyPlugins, ShellPlugin, CourseShellPlugin));
@@ -109,7 +113,7 @@ fn window(options: &Options) -> Result<ExitCode, CourseError> {
 }
 
 fn shot(options: &Options, file: &std::path::Path) -> Shot {
-    let overview = options.station.as_deref() == Some("overview");
+    let overview = options.station.as_deref() == Some(OVERVIEW);
     Shot {
         file: file.into(),
         seconds: options.seconds,
@@ -120,7 +124,7 @@ fn shot(options: &Options, file: &std::path::Path) -> Shot {
             _ => None,
         }),
         overview: overview.then(|| {
-            Transform::from_xyz(30.0, 18.0, 46.0).looking_at(Vec3::new(-5.0, -1.0, 8.0), Vec3::Y)
+            Transform::from_xyz(27.0, 16.5, 44.0).looking_at(Vec3::new(-6.0, -3.5, 8.0), Vec3::Y)
         }),
     }
 }

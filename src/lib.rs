@@ -17,13 +17,13 @@ pub mod character;
 
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
+pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
 #[cfg(all(feature = "character", feature = "debug"))]
 pub use debug::EmbodyDebugPlugin;
 #[cfg(all(feature = "character", feature = "egui"))]
 pub use debug::EmbodyInspectorPlugin;
 #[cfg(feature = "character")]
 pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
-pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
 pub use teleport::Teleported;
 

@@ -4,13 +4,27 @@ use bevy::{input::common_conditions::input_just_pressed, prelude::*};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, input::egui_wants_any_keyboard_input};
 use bevy_embody::debug::{CharacterGizmos, InspectorPanel};
 
+use super::overlay::Plate;
+
 /// What is shown from the start.
-#[derive(Resource, Clone, Copy, Debug, Default)]
+#[derive(Resource, Clone, Copy, Debug)]
 pub struct Switches {
     /// Whether the character gizmos are drawn.
     pub gizmos: bool,
     /// Whether the tuning panel is open.
     pub panel: bool,
+    /// Whether the head-up display is shown.
+    pub display: bool,
+}
+
+impl Default for Switches {
+    fn default() -> Self {
+        Self {
+            gizmos: false,
+            panel: false,
+            display: true,
+        }
+    }
 }
 
 /// `G` toggles the gizmos, `Tab` the tuning panel.
@@ -19,7 +33,7 @@ pub(super) struct SwitchesPlugin;
 impl Plugin for SwitchesPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<Switches>()
-            .add_systems(Startup, set)
+            .add_systems(PostStartup, set)
             .add_systems(
                 Update,
                 (
@@ -41,7 +55,11 @@ fn set(
     switches: Res<Switches>,
     mut store: ResMut<GizmoConfigStore>,
     mut panel: ResMut<InspectorPanel>,
+    mut plates: Query<&mut Visibility, With<Plate>>,
 ) {
+    for mut visibility in plates.iter_mut().filter(|_| !switches.display) {
+        *visibility = Visibility::Hidden;
+    }
     store.config_mut::<CharacterGizmos>().0.enabled = switches.gizmos;
     panel.open = switches.panel;
 }

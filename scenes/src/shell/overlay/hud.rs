@@ -39,8 +39,8 @@ pub enum HudPart {
 }
 
 /// A plate of the display.
-#[derive(Component)]
-struct Plate;
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Plate;
 
 /// Writes the display; `F2` hides it.
 pub(super) struct HudPlugin;

@@ -5,7 +5,7 @@ mod hud;
 
 use bevy::prelude::*;
 
-pub use hud::{Hud, HudPart};
+pub use hud::{Hud, HudPart, Plate};
 
 /// Help (`F1`) and head-up display (`F2`).
 pub(super) struct OverlayPlugin;
