@@ -54,6 +54,11 @@ struct Options {
     panel: bool,
 }
 
+#[expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program talks to whoever started it"
+)]
 fn main() -> ExitCode {
     let options = Options::parse();
     let displayed = has_display();

@@ -36,7 +36,7 @@ pub(super) fn show(
     let name = |entity: Entity| {
         names
             .get(entity)
-            .map_or_else(|_| entity.to_string(), |name| name.to_string())
+            .map_or_else(|_| entity.to_string(), ToString::to_string)
     };
     let mut open = panel.open;
     egui::Window::new("Character")
@@ -49,7 +49,7 @@ pub(super) fn show(
             let mut all: Vec<Entity> = characters.iter().map(|(entity, _)| entity).collect();
             all.sort_unstable();
             if all.len() > 1 {
-                choose(ui, &mut panel, &all, &name);
+                choose(ui, &mut panel, &all, name);
             }
             let Some((entity, shown)) = panel.pick(characters.iter()) else {
                 ui.weak("there is no character");
@@ -61,7 +61,7 @@ pub(super) fn show(
                 CollapsingHeader::new("Findings")
                     .default_open(true)
                     .show(ui, |ui| {
-                        findings::show(ui, shown.state, shown.contacts, step, &name);
+                        findings::show(ui, shown.state, shown.contacts, step, name);
                     });
                 let registry = registry.read();
                 let mut form = Form::new(&registry, &mut edits, entity);

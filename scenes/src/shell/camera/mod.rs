@@ -37,9 +37,9 @@ pub struct CameraRig {
     /// Length of the arm when nothing is in the way, metres.
     pub distance: f32,
     /// Length of the arm now, metres.
-    arm: f32,
+    pub(in crate::shell) arm: f32,
     /// Height of the eyes above the foot now, metres; 0 before the first frame.
-    eye: f32,
+    pub(in crate::shell) eye: f32,
 }
 
 impl Default for CameraRig {
