@@ -103,6 +103,16 @@ impl<'a> Form<'a> {
     }
 
     fn number(&mut self, ui: &mut Ui, name: &str, number: f32, path: &str) {
+        // A drag field would turn it into a number by merely showing it.
+        if number.is_nan() {
+            ui.horizontal(|ui| {
+                ui.colored_label(egui::Color32::LIGHT_RED, "not a number");
+                if ui.small_button("set to 0").clicked() {
+                    self.set(path, 0.0f32);
+                }
+            });
+            return;
+        }
         let mut new = number;
         if is_angle(name) {
             let mut degrees = number.to_degrees();
@@ -125,7 +135,9 @@ impl<'a> Form<'a> {
                 .max_decimals(3)
                 .suffix(unit(name));
             if !may_be_negative(name) {
-                drag = drag.range(0.0..=f32::INFINITY);
+                drag = drag
+                    .range(0.0..=f32::INFINITY)
+                    .clamp_existing_to_range(false);
             }
             ui.add(drag);
         }
@@ -269,6 +281,7 @@ mod tests {
             acceleration: f32::INFINITY,
             walk_speed: f32::NAN,
             gravity_scale: -1.0,
+            jump_height: -1.0,
             ..default()
         };
         draw(&mut edits, &Character::cuboid(1.0, 2.0, 1.0), &odd);
