@@ -2,6 +2,8 @@
 
 pub mod course;
 pub mod harness;
+#[cfg(feature = "window")]
+pub mod shell;
 pub mod stations;
 
 pub use harness::Sim;
