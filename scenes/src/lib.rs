@@ -3,5 +3,6 @@
 pub mod course;
 pub mod harness;
 pub mod stations;
+pub mod wavy;
 
 pub use harness::Sim;
