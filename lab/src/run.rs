@@ -1,6 +1,6 @@
 //! One world, run and measured in this process.
 
-use std::time::Instant;
+use std::{collections::BTreeMap, time::Instant};
 
 use bevy::{
     app::TaskPoolOptions,
@@ -9,7 +9,10 @@ use bevy::{
 };
 use bevy_embody::EmbodyCorePlugin;
 use clap::Args;
-use embody_scenes::{Sim, wavy::StableId};
+use embody_scenes::{
+    Sim,
+    wavy::{LOWEST, StableId, Walker},
+};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -55,6 +58,10 @@ pub struct Measured {
     pub allocations: Vec<u64>,
     /// Hash of where everything that moves is in the end.
     pub hash: u64,
+    /// Mean level way of a walker in a tick, of what it wished for: shows that they do walk.
+    pub progress: f64,
+    /// Characters below the lowest ground in the end.
+    pub lost: usize,
 }
 
 /// Runs and prints.
@@ -68,7 +75,8 @@ pub fn run(options: &Options) -> Result<(), String> {
     let mean = |of: &[u64]| of.iter().sum::<u64>() as f64 / of.len().max(1) as f64 * 1e-3;
     let work = mean(&measured.work);
     println!(
-        "profile {} side={} threads={} n={} steps={} us={:.3} work={:.1}us tick={:.1}us allocations={} hash={:016x}",
+        "profile {} side={} threads={} n={} steps={} us={:.3} work={:.1}us update={:.1}us allocations={} \
+         progress={:.2} lost={} hash={:016x}",
         options.scene,
         options.only.name(),
         options.threads,
@@ -78,6 +86,8 @@ pub fn run(options: &Options) -> Result<(), String> {
         work,
         mean(&measured.whole),
         measured.allocations.iter().sum::<u64>(),
+        measured.progress,
+        measured.lost,
         measured.hash,
     );
     Ok(())
@@ -101,7 +111,10 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         whole: Vec::with_capacity(options.steps),
         allocations: Vec::with_capacity(options.steps),
         hash: 0,
+        progress: 0.0,
+        lost: 0,
     };
+    let mut way = Way::default();
     sim.app.world_mut().resource_mut::<Probe>().take();
     for _ in 0..options.steps {
         let start = Instant::now();
@@ -110,8 +123,11 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         let (work, allocations) = sim.app.world_mut().resource_mut::<Probe>().take();
         measured.work.push(work.as_nanos() as u64);
         measured.allocations.push(allocations);
+        way.follow(sim.app.world_mut());
     }
     measured.hash = hash(sim.app.world_mut());
+    measured.progress = way.went / way.wished;
+    measured.lost = way.lost();
     Ok(measured)
 }
 
@@ -128,6 +144,31 @@ fn run_alone(app: &mut App) {
     let mut schedules = app.world_mut().resource_mut::<Schedules>();
     for (_, schedule) in schedules.iter_mut() {
         schedule.set_executor(SingleThreadedExecutor::new());
+    }
+}
+
+/// How far walkers got.
+#[derive(Default)]
+struct Way {
+    last: BTreeMap<StableId, Vec3>,
+    went: f64,
+    wished: f64,
+}
+
+impl Way {
+    fn follow(&mut self, world: &mut World) {
+        let mut walkers = world.query::<(&StableId, &Walker, &Transform)>();
+        for (id, walker, transform) in walkers.iter(world) {
+            let at = transform.translation;
+            if let Some(last) = self.last.insert(*id, at) {
+                self.went += f64::from((at - last).with_y(0.0).length());
+                self.wished += f64::from(walker.wish.length() / 60.0);
+            }
+        }
+    }
+
+    fn lost(&self) -> usize {
+        self.last.values().filter(|at| at.y < LOWEST - 1.0).count()
     }
 }
 

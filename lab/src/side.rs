@@ -146,13 +146,8 @@ fn rapier_character() -> impl Bundle {
             ..default()
         },
         KinematicCharacterControllerOutput::default(),
-        FallSpeed::default(),
     )
 }
-
-/// Vertical speed of a character on Rapier's side, metres per second.
-#[derive(Component, Default)]
-struct FallSpeed(f32);
 
 /// What a game has to do for Rapier's controller: gravity, and velocity to translation.
 fn fall_and_walk(
@@ -160,17 +155,18 @@ fn fall_and_walk(
     mut characters: Query<(
         &mut KinematicCharacterController,
         &KinematicCharacterControllerOutput,
-        &mut FallSpeed,
         Option<&Walker>,
     )>,
 ) {
     let dt = time.delta_secs();
-    for (mut controller, output, mut fall, walker) in &mut characters {
-        if output.grounded {
-            fall.0 = 0.0;
-        }
-        fall.0 -= 9.81 * dt;
+    for (mut controller, output, walker) in &mut characters {
+        // What was stopped does not go on falling.
+        let fallen = if output.grounded {
+            0.0
+        } else {
+            output.effective_translation.y.min(0.0)
+        };
         let wish = walker.map_or(Vec3::ZERO, |walker| walker.wish);
-        controller.translation = Some((wish + Vec3::Y * fall.0) * dt);
+        controller.translation = Some(wish * dt + Vec3::Y * (fallen - 9.81 * dt * dt));
     }
 }

@@ -18,6 +18,8 @@ pub const PER_TILE: u32 = 100;
 pub const TILE: f32 = 50.0;
 /// Fastest that a walker is asked to go, metres per second.
 pub const FASTEST: f32 = 9.5;
+/// Height of the lowest ground, metres.
+pub const LOWEST: f32 = -AMPLITUDE;
 /// Slowest that a walker is asked to go, metres per second.
 const SLOWEST: f32 = 5.0;
 /// Longest time on the way to one point, ticks of 1/60 s.
@@ -26,14 +28,17 @@ const LEG: u32 = 120;
 const QUAD: f32 = 0.5;
 const QUADS: u32 = 100;
 const AMPLITUDE: f32 = 2.0;
-/// Waves along the edge of a tile: a whole number, so that tiles are alike.
-const WAVES: f32 = 8.0;
+/// Waves along the edge of a tile: a whole number, so that tiles are alike. The terrain is 37
+/// degrees steep at most.
+const WAVES: f32 = 3.0;
 /// Rows and columns of characters, and of crates, on a tile.
 const ROWS: u32 = 10;
 /// Distance of rows and columns, metres.
 const SPACING: f32 = 4.0;
 const STEPS: u32 = 10;
 const STEP: f32 = 0.3;
+/// Height of the foot of the stairs, metres: they rise out of the terrain.
+const STAIRS: f32 = -1.0;
 const PILLARS: u32 = 10;
 const CRATE: f32 = 0.5;
 
@@ -92,7 +97,7 @@ impl Wavy {
         let ring = at.abs().max_element();
         let stairs = (0..STEPS)
             .filter(|i| ring <= half_width(*i))
-            .map(|i| STEP * (i + 1) as f32)
+            .map(|i| STAIRS + STEP * (i + 1) as f32)
             .fold(f32::MIN, f32::max);
         stairs.max(Self::height(middle.x + at.x, middle.y + at.y))
     }
@@ -106,16 +111,18 @@ impl Wavy {
             let middle = self.middle(tile);
             for i in 0..STEPS {
                 let half = half_width(i);
+                let top = STAIRS + STEP * (i + 1) as f32;
                 // The lowest one reaches down into the hollows of the terrain.
-                let low = if i == 0 { -AMPLITUDE } else { STEP * i as f32 };
+                let low = if i == 0 { LOWEST } else { top - STEP };
                 block(
                     world,
                     Vec3::new(middle.x - half, low, middle.y - half),
-                    Vec3::new(middle.x + half, STEP * (i + 1) as f32, middle.y + half),
+                    Vec3::new(middle.x + half, top, middle.y + half),
                 );
             }
             for i in 0..PILLARS {
-                let at = middle + Vec2::new(SPACING * i as f32 - 17.0, -15.0);
+                // Side by side they are a wall with an inner edge every 0.2 m.
+                let at = middle + Vec2::new(8.0, 6.9 + 0.2 * i as f32);
                 let foot = Self::height(at.x, at.y) - 0.5;
                 block(
                     world,
