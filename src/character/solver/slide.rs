@@ -58,26 +58,17 @@ impl Solver<'_> {
         for touch in self.touches.iter() {
             let obstacle = &self.near.obstacles[touch.obstacle as usize];
             let push = self.push_of(touch.obstacle, touch.point, touch.normal, t);
-            let gap = touch.distance.max(0.0);
+            let gap = (touch.distance - HIT).max(0.0);
             let yields = obstacle.kind as u8;
-            let normal = touch.normal.as_dvec3();
-            let bound = f64::from(push - gap);
-            blocked |= normal.dot(bent.as_dvec3()) < bound;
-            self.planes.push(HalfSpace {
-                normal,
-                bound,
-                yields,
-            });
+            let bound = push - gap;
+            blocked |= touch.normal.dot(bent) < bound;
+            self.planes.push(HalfSpace::new(touch.normal, bound, yields));
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
                 let steepness = level.dot(touch.normal);
                 let push = self.push_of(touch.obstacle, touch.point, level, t);
-                self.planes.push(HalfSpace {
-                    normal: level.as_dvec3(),
-                    bound: f64::from(push - gap / steepness.max(0.01)),
-                    yields,
-                });
+                self.planes.push(HalfSpace::new(level, push - gap / steepness.max(0.01), yields));
             }
         }
         if !blocked {
@@ -103,7 +94,7 @@ impl Solver<'_> {
         let mut face = false;
         for touch in self.touches.iter().filter(|touch| touch.bend == Bend::Ground) {
             let push = self.push_of(touch.obstacle, touch.point, touch.normal, t);
-            let need = push - touch.distance.max(0.0) - touch.normal.dot(rest);
+            let need = push - (touch.distance - HIT).max(0.0) - touch.normal.dot(rest);
             let needed = need / touch.normal.dot(self.up);
             if needed > lift {
                 lift = needed;
@@ -170,19 +161,11 @@ impl Solver<'_> {
                 continue;
             }
             let yields = self.near.obstacles[touch.obstacle as usize].kind as u8;
-            self.planes.push(HalfSpace {
-                normal: touch.normal.as_dvec3(),
-                bound: f64::from(bound(self, touch.obstacle, touch.point, touch.normal)),
-                yields,
-            });
+            self.planes.push(HalfSpace::new(touch.normal, bound(self, touch.obstacle, touch.point, touch.normal), yields));
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
-                self.planes.push(HalfSpace {
-                    normal: level.as_dvec3(),
-                    bound: f64::from(bound(self, touch.obstacle, touch.point, level)),
-                    yields,
-                });
+                self.planes.push(HalfSpace::new(level, bound(self, touch.obstacle, touch.point, level), yields));
             }
         }
         let (x, _) = nearest_yielding(velocity.as_dvec3(), self.planes);
