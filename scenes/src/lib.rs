@@ -5,5 +5,6 @@ pub mod harness;
 #[cfg(feature = "window")]
 pub mod shell;
 pub mod stations;
+pub mod wavy;
 
 pub use harness::Sim;
