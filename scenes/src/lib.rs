@@ -1,5 +1,7 @@
 //! Scenes, harness and example shell shared by the tests, examples and lab of `bevy_embody`.
 
+pub mod builders;
 pub mod harness;
 
+pub use builders::{FloorKind, Make, Mover, Patch, StairCeiling, Stairs};
 pub use harness::Sim;
