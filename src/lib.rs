@@ -1,6 +1,7 @@
 //! Characters that walk.
 
 mod backend;
+mod math;
 mod schedule;
 
 #[cfg(feature = "character")]

@@ -1,3 +1,12 @@
-//! The only place that names Rapier's internals.
+//! The only place that names Rapier's internals: everything above works on plain geometry.
 
 pub(crate) mod setup;
+
+#[cfg(feature = "character")]
+pub(crate) mod activity;
+#[cfg(feature = "character")]
+pub(crate) mod collider;
+#[cfg(feature = "character")]
+pub(crate) mod neighbourhood;
+#[cfg(feature = "character")]
+pub(crate) mod world;

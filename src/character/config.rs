@@ -6,9 +6,11 @@ use bevy::prelude::*;
 use bevy_rapier3d::prelude::RigidBody;
 
 use super::{
+    body::CharacterBody,
     intent::CharacterIntent,
     motor::CharacterMotor,
     output::{CharacterContacts, CharacterSnapshot},
+    report::CharacterReport,
     state::CharacterState,
 };
 
@@ -33,6 +35,8 @@ use super::{
     CharacterState,
     CharacterContacts,
     CharacterSnapshot,
+    CharacterBody,
+    CharacterReport,
     Transform,
     RigidBody::KinematicPositionBased
 )]

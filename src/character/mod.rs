@@ -1,14 +1,27 @@
 //! A kinematic character controller.
 
+mod body;
 mod config;
+mod drive;
 mod events;
+mod guard;
 mod intent;
 mod motor;
 mod output;
+mod platform;
+mod react;
+mod report;
+mod solver;
 mod state;
 mod surface;
+mod tick;
+mod validate;
 
 use bevy::prelude::*;
+
+use crate::{backend::activity::Activity, schedule::EmbodySystems};
+#[cfg(doc)]
+use crate::schedule::EmbodyCorePlugin;
 
 pub use config::{Character, CharacterShape, LeaveVelocity, SlopeSpeed, StepConfig};
 pub use events::{Crushed, Hit, Landed, LeftGround, StanceChanged, Stepped};
@@ -23,10 +36,43 @@ pub use surface::{
     SurfaceVelocity, UpDirection, WaterVolume,
 };
 
-/// Adds the character controller. Needs [`EmbodyCorePlugin`](crate::EmbodyCorePlugin).
+/// Adds the character controller. Needs [`EmbodyCorePlugin`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CharacterPlugin;
 
 impl Plugin for CharacterPlugin {
-    fn build(&self, _app: &mut App) {}
+    fn build(&self, app: &mut App) {
+        app.register_type::<Character>()
+            .register_type::<CharacterMotor>()
+            .register_type::<CustomMotor>()
+            .register_type::<CharacterIntent>()
+            .register_type::<CharacterState>()
+            .register_type::<CharacterContacts>()
+            .register_type::<CharacterIgnores>()
+            .register_type::<CharacterUp>()
+            .register_type::<SurfaceVelocity>()
+            .register_type::<SurfaceGrip>()
+            .register_type::<WaterVolume>()
+            .register_type::<Ladder>()
+            .register_type::<NotPushable>()
+            .init_resource::<Activity>()
+            .add_systems(
+                FixedPostUpdate,
+                (
+                    (guard::keep_finite, body::build_bodies, body::resize_colliders)
+                        .chain()
+                        .in_set(EmbodySystems::Prepare),
+                    (
+                        motor::drive_motors,
+                        drive::refresh_world,
+                        drive::solve_characters,
+                        drive::apply_effects,
+                    )
+                        .chain()
+                        .in_set(EmbodySystems::Drive),
+                    react::trigger_events.in_set(EmbodySystems::React),
+                )
+                    .run_if(any_with_component::<Character>),
+            );
+    }
 }

@@ -89,9 +89,7 @@ pub enum StepResult {
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 pub struct CharacterSnapshot {
-    pub(crate) position: Vec3,
-    pub(crate) up: Vec3,
     pub(crate) velocity: Vec3,
-    pub(crate) height: f32,
+    pub(crate) margin: f32,
     pub(crate) active: bool,
 }

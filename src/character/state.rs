@@ -1,6 +1,9 @@
 //! What a character carries from tick to tick: all that a rollback must restore.
 
-use bevy::{ecs::entity::MapEntities, prelude::*};
+use bevy::{
+    ecs::{entity::MapEntities, reflect::ReflectMapEntities},
+    prelude::*,
+};
 
 use super::intent::Stance;
 
@@ -44,6 +47,11 @@ pub struct CharacterState {
     pub jump_held: bool,
     /// Whether it is in the air because it jumped.
     pub jumping: bool,
+    /// Whether it was climbing a step in the last tick.
+    pub stepping: bool,
+    /// The water or ladder that it is in.
+    #[entities]
+    pub volume: Option<Entity>,
     /// Whether the last tick left it pinned between two things that close on it.
     pub crushed: bool,
     /// What a camera adds to the position to see steps as ramps, world axes, metres.
@@ -71,6 +79,8 @@ impl Default for CharacterState {
             coyote_time: 0.0,
             jump_held: false,
             jumping: false,
+            stepping: false,
+            volume: None,
             crushed: false,
             view_offset: Vec3::ZERO,
             last_position: Vec3::NAN,
@@ -172,8 +182,6 @@ pub struct Anchor {
     /// The entity of the ground's collider.
     #[entities]
     pub entity: Entity,
-    /// The foot in the collider's frame, metres.
-    pub local: Vec3,
     /// Pose of the collider when the anchor was set: position.
     pub position: Vec3,
     /// Pose of the collider when the anchor was set: rotation.

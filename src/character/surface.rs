@@ -1,7 +1,10 @@
 //! Components for the world a character moves in: what a surface does to those who stand on it,
 //! volumes of water, ladders, and what a character may touch.
 
-use bevy::prelude::*;
+use bevy::{
+    ecs::{entity::MapEntities, reflect::ReflectMapEntities},
+    prelude::*,
+};
 
 /// Carries characters that stand on this collider, as a conveyor or an escalator does, while the
 /// collider itself stands still.
@@ -64,7 +67,7 @@ pub struct NotPushable;
 pub struct CharacterFilter(pub fn(character: Entity, other: Entity) -> bool);
 
 /// On a character: leaves out these entities' colliders.
-#[derive(Component, Reflect, Clone, Debug, Default, PartialEq, bevy::ecs::entity::MapEntities)]
+#[derive(Component, Reflect, Clone, Debug, Default, PartialEq, MapEntities)]
 #[reflect(Component, Default, Debug, PartialEq, Clone, MapEntities)]
 pub struct CharacterIgnores(#[entities] pub Vec<Entity>);
 

@@ -1,0 +1,186 @@
+//! The world near a moving shape, gathered once per tick and then queried many times.
+//!
+//! One traversal of the broad-phase tree collects every convex piece that the shape could reach in
+//! the tick: whole convex colliders, triangles of meshes and height fields, cubes of voxel grids.
+//! All coordinates are relative to an origin near the shape, so far from the world's origin no
+//! digit is lost. Pieces that are too far to matter are left out by one distance evaluation each.
+//! Queries then never touch the physics world again.
+//!
+//! Memory is kept between ticks; gathering allocates only while a buffer still grows.
+
+mod gather;
+mod mover;
+mod piece;
+
+use bevy::{math::DQuat, prelude::*};
+
+pub(crate) use gather::Request;
+pub(crate) use mover::{Mover, MoverPose};
+pub(crate) use piece::{Geometry, Piece};
+
+use crate::math::Closest;
+
+/// What kind of thing an obstacle is, in the order in which they give way: the later ones first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum ObstacleKind {
+    /// Does not move this tick.
+    Static,
+    /// Moves as it wills.
+    Kinematic,
+    /// Another character.
+    Character,
+    /// Moves as forces will.
+    Dynamic,
+}
+
+/// A collider near the shape.
+#[derive(Clone, Debug)]
+pub(crate) struct Obstacle {
+    /// Entity of the collider.
+    pub entity: Entity,
+    /// Entity of its body, or of the collider when it has none.
+    pub body: Entity,
+    pub kind: ObstacleKind,
+    /// Motion of its body over the whole tick.
+    pub motion: Motion,
+    /// Inverse mass and centre of mass (relative to the origin), for dynamic bodies.
+    pub dynamics: Option<Dynamics>,
+    pub friction: f32,
+    pub restitution: f32,
+    /// Thickness of the obstacle beyond its collider, metres.
+    pub skin: f32,
+}
+
+/// What is needed to exchange momentum with a body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Dynamics {
+    pub linear_velocity: Vec3,
+    pub angular_velocity: Vec3,
+    pub center: Vec3,
+    /// Inverse mass along each world axis, 1/kg.
+    pub inverse_mass: Vec3,
+    /// Inverse inertia about the centre, world axes, 1/(kg·m²).
+    pub inverse_inertia: Mat3,
+}
+
+impl Dynamics {
+    /// Velocity of the body at a point, metres per second.
+    pub fn velocity_at(&self, point: Vec3) -> Vec3 {
+        self.linear_velocity + self.angular_velocity.cross(point - self.center)
+    }
+
+    /// Mass that the body opposes to an impulse along `n` at `point`, kilograms.
+    pub fn effective_mass(&self, point: Vec3, n: Vec3) -> f32 {
+        let arm = (point - self.center).cross(n);
+        let inverse = (n * n).dot(self.inverse_mass) + arm.dot(self.inverse_inertia * arm);
+        if inverse > 1.0e-12 { 1.0 / inverse } else { f32::MAX }
+    }
+
+    /// Takes up an impulse at a point.
+    pub fn apply(&mut self, impulse: Vec3, point: Vec3) {
+        self.linear_velocity += impulse * self.inverse_mass;
+        self.angular_velocity += self.inverse_inertia * (point - self.center).cross(impulse);
+    }
+}
+
+/// A rigid motion over one tick: a turn about a moving pivot, spread evenly.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion {
+    pub pivot: Vec3,
+    /// Displacement of the pivot over the tick, metres.
+    pub linear: Vec3,
+    /// Rotation over the tick as axis times angle, radians.
+    pub turn: Vec3,
+}
+
+impl Motion {
+    pub const NONE: Self = Self {
+        pivot: Vec3::ZERO,
+        linear: Vec3::ZERO,
+        turn: Vec3::ZERO,
+    };
+
+    pub fn is_none(&self) -> bool {
+        self.linear == Vec3::ZERO && self.turn == Vec3::ZERO
+    }
+
+
+    /// Displacement over the rest of the tick of the point that is at `point` at fraction `t`.
+    pub fn rest(&self, point: Vec3, t: f32) -> Vec3 {
+        if self.turn == Vec3::ZERO {
+            return self.linear * (1.0 - t);
+        }
+        let arm = point - (self.pivot + self.linear * t);
+        let rest = DQuat::from_scaled_axis((self.turn * (1.0 - t)).as_dvec3());
+        self.linear * (1.0 - t) + (rest * arm.as_dvec3() - arm.as_dvec3()).as_vec3()
+    }
+
+    /// Velocity per tick of the point that is at `point` at fraction `t`.
+    pub fn velocity(&self, point: Vec3, t: f32) -> Vec3 {
+        self.linear + self.turn.cross(point - (self.pivot + self.linear * t))
+    }
+
+    /// Greatest displacement of any point within `reach` of `around`.
+    pub fn reach(&self, around: Vec3, reach: f32) -> f32 {
+        self.linear.length() + self.turn.length() * ((around - self.pivot).length() + reach)
+    }
+}
+
+/// The gathered surroundings of one shape.
+#[derive(Default)]
+pub(crate) struct Neighbourhood {
+    pub obstacles: Vec<Obstacle>,
+    pub pieces: Vec<Piece>,
+    /// Distance evaluations since the last gathering.
+    pub queries: u32,
+    /// Whether any obstacle moves.
+    pub moving: bool,
+    /// Entities of the sensors that hold the request's probe point.
+    pub volumes: Vec<Entity>,
+}
+
+impl Neighbourhood {
+    /// Forgets everything but keeps the memory.
+    pub fn clear(&mut self) {
+        self.obstacles.clear();
+        self.pieces.clear();
+        self.queries = 0;
+        self.moving = false;
+        self.volumes.clear();
+    }
+
+    pub fn obstacle(&self, piece: &Piece) -> &Obstacle {
+        &self.obstacles[piece.obstacle as usize]
+    }
+
+    /// Distance of the mover from a piece at the fraction `t` of the tick: closest pair with the
+    /// distance measured between the surfaces.
+    pub fn separation(&mut self, index: usize, mover: &Mover, pose: &MoverPose, t: f32) -> Closest {
+        self.queries += 1;
+        let piece = &self.pieces[index];
+        let obstacle = &self.obstacles[piece.obstacle as usize];
+        let motion = &obstacle.motion;
+        if t == 0.0 || motion.is_none() {
+            let mut found = mover.separation(&piece.geometry, pose);
+            found.distance -= obstacle.skin;
+            return found;
+        }
+        // The piece stays where it was at the start; the mover goes back in its frame instead.
+        let turn = Quat::from_scaled_axis(motion.turn * t);
+        let back = turn.inverse();
+        let pivot = motion.pivot + motion.linear * t;
+        let local = MoverPose {
+            position: motion.pivot + back * (pose.position - pivot),
+            rotation: back * pose.rotation,
+            up: back * pose.up,
+        };
+        let found = mover.separation(&piece.geometry, &local);
+        Closest {
+            distance: found.distance - obstacle.skin,
+            normal: turn * found.normal,
+            point: pivot + turn * (found.point - motion.pivot),
+            on_face: found.on_face,
+            surface: turn * found.surface,
+        }
+    }
+}

@@ -1,0 +1,438 @@
+//! Reading and writing the physics world between its synchronisation and its step.
+
+use bevy::{ecs::system::SystemParam, prelude::*};
+use bevy_rapier3d::{
+    plugin::context::{
+        RapierContextColliders, RapierContextEntityLink, RapierContextSimulation,
+        RapierRigidBodySet,
+    },
+    prelude::{CollisionGroups, RapierColliderHandle, RapierConfiguration, RapierRigidBodyHandle},
+    rapier::{
+        dynamics::{RigidBody, RigidBodyType},
+        geometry::{Aabb, Collider, InteractionGroups},
+        math::{AngularInertia, Pose},
+        parry::{bounding_volume::BoundingVolume, partitioning::BvhNode, query::DefaultQueryDispatcher},
+        pipeline::QueryFilter,
+    },
+};
+
+use super::{
+    activity::Activity,
+    neighbourhood::{Dynamics, Motion, Neighbourhood, Obstacle, ObstacleKind, Request},
+};
+
+/// All physics worlds, to be read.
+#[derive(SystemParam)]
+pub(crate) struct PhysicsWorlds<'w, 's> {
+    contexts: Query<
+        'w,
+        's,
+        (
+            &'static RapierContextSimulation,
+            &'static RapierContextColliders,
+            &'static RapierRigidBodySet,
+            &'static RapierConfiguration,
+        ),
+    >,
+}
+
+impl PhysicsWorlds<'_, '_> {
+    /// The world that a body belongs to.
+    pub fn of(&self, link: &RapierContextEntityLink) -> Option<PhysicsView<'_>> {
+        let (simulation, colliders, bodies, config) = self.contexts.get(link.0).ok()?;
+        Some(PhysicsView {
+            simulation,
+            colliders,
+            bodies,
+            gravity: config.gravity,
+            active: config.physics_pipeline_active,
+        })
+    }
+}
+
+/// One physics world, to be read.
+#[derive(Clone, Copy)]
+pub(crate) struct PhysicsView<'a> {
+    simulation: &'a RapierContextSimulation,
+    colliders: &'a RapierContextColliders,
+    bodies: &'a RapierRigidBodySet,
+    pub gravity: Vec3,
+    /// Whether the world is stepped.
+    pub active: bool,
+}
+
+/// A rigid pose in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WorldPose {
+    pub position: Vec3,
+    pub rotation: Quat,
+}
+
+impl From<&Pose> for WorldPose {
+    fn from(pose: &Pose) -> Self {
+        Self {
+            position: pose.translation,
+            rotation: pose.rotation,
+        }
+    }
+}
+
+/// What the asker makes of a collider.
+pub(crate) enum Verdict {
+    /// As the physics world has it.
+    AsIs,
+    /// Leave it out.
+    Skip,
+    /// A body that neither pushes nor is pushed.
+    Wall,
+    /// Another character, thicker than its collider by this much.
+    Character(f32),
+}
+
+/// A collider that carries somebody.
+pub(crate) struct Carrier {
+    /// Its pose now.
+    pub now: WorldPose,
+    /// Its pose at the end of the tick.
+    pub end: WorldPose,
+}
+
+impl<'a> PhysicsView<'a> {
+    /// The pose of a body now and the one it was told to take.
+    pub fn body_pose(&self, handle: &RapierRigidBodyHandle) -> Option<(WorldPose, WorldPose)> {
+        let body = self.bodies.bodies.get(handle.0)?;
+        Some((body.position().into(), body.next_position().into()))
+    }
+
+    /// Where a collider is now and where it will be at the end of the tick.
+    pub fn carrier(&self, entity: Entity, dt: f32) -> Option<Carrier> {
+        let handle = self.colliders.entity2collider().get(&entity)?;
+        let collider = self.colliders.colliders.get(*handle)?;
+        if !collider.is_enabled() || collider.is_sensor() {
+            return None;
+        }
+        let now = collider.position();
+        let body = collider.parent().and_then(|h| self.bodies.bodies.get(h));
+        let end = match (body, collider.position_wrt_parent()) {
+            (Some(body), Some(local)) => match end_of_tick(body, dt) {
+                Some(end) => end * *local,
+                None => *now,
+            },
+            _ => *now,
+        };
+        Some(Carrier {
+            now: now.into(),
+            end: (&end).into(),
+        })
+    }
+
+    /// Collects what is near. `judge` is asked about every collider by its entity and its body's.
+    pub fn gather(
+        &self,
+        request: &Request,
+        groups: CollisionGroups,
+        dt: f32,
+        judge: impl Fn(Entity, Entity) -> Verdict,
+        out: &mut Neighbourhood,
+    ) {
+        out.clear();
+        let groups: InteractionGroups = groups.into();
+        let low = request.origin + request.low;
+        let high = request.origin + request.high;
+        if !(low.is_finite() && high.is_finite()) {
+            return;
+        }
+        let area = BvhNode::leaf(Aabb::new(low, high), 0);
+        let pipeline = self.simulation.broad_phase.as_query_pipeline(
+            &DefaultQueryDispatcher,
+            &self.bodies.bodies,
+            &self.colliders.colliders,
+            QueryFilter::default(),
+        );
+        for leaf in pipeline.bvh.leaves(|node| node.intersects(&area)) {
+            let Some((collider, _)) = pipeline.colliders.get_unknown_gen(leaf) else {
+                continue;
+            };
+            if !collider.is_enabled() || !collider.collision_groups().test(groups) {
+                continue;
+            }
+            if collider.is_sensor() {
+                let probe = request.origin + request.probe;
+                if collider.shape().contains_point(collider.position(), probe) {
+                    out.volumes
+                        .push(RapierContextColliders::entity_from_collider(collider));
+                }
+                continue;
+            }
+            self.add_obstacle(request, collider, dt, &judge, out);
+        }
+    }
+
+    fn add_obstacle(
+        &self,
+        request: &Request,
+        collider: &'a Collider,
+        dt: f32,
+        judge: &impl Fn(Entity, Entity) -> Verdict,
+        out: &mut Neighbourhood,
+    ) {
+        let entity = RapierContextColliders::entity_from_collider(collider);
+        let body = collider.parent().and_then(|h| self.bodies.bodies.get(h));
+        let body_entity = body.map_or(entity, |b| Entity::from_bits(b.user_data as u64));
+        let verdict = judge(entity, body_entity);
+        let mut obstacle = Obstacle {
+            entity,
+            body: body_entity,
+            kind: ObstacleKind::Static,
+            motion: Motion::NONE,
+            dynamics: None,
+            friction: collider.friction(),
+            restitution: collider.restitution(),
+            skin: 0.0,
+        };
+        match verdict {
+            Verdict::Skip => return,
+            Verdict::Character(skin) => {
+                obstacle.kind = ObstacleKind::Character;
+                obstacle.skin = skin;
+            }
+            Verdict::AsIs | Verdict::Wall => {
+                if let Some(body) = body {
+                    describe_motion(&mut obstacle, body, request.origin, dt);
+                    if matches!(verdict, Verdict::Wall)
+                        && obstacle.kind == ObstacleKind::Dynamic
+                    {
+                        obstacle.dynamics = None;
+                    }
+                }
+            }
+        }
+        let slack = obstacle.skin
+            + if obstacle.motion.is_none() {
+                0.0
+            } else {
+                out.moving = true;
+                let middle = (request.low + request.high) * 0.5;
+                let reach = (request.high - request.low).length() * 0.5;
+                obstacle.motion.reach(middle, reach)
+            };
+        let index = out.obstacles.len() as u32;
+        out.obstacles.push(obstacle);
+        let pieces = out.pieces.len();
+        out.add_shape(request, index, collider.shared_shape(), collider.position(), slack);
+        if out.pieces.len() == pieces {
+            out.obstacles.pop();
+        }
+    }
+}
+
+/// The pose of a body at the end of the tick, or `None` when it does not move.
+fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
+    let end = match body.body_type() {
+        RigidBodyType::Fixed => return None,
+        RigidBodyType::KinematicPositionBased => *body.next_position(),
+        RigidBodyType::KinematicVelocityBased => body.predict_position_using_velocity(dt),
+        RigidBodyType::Dynamic => {
+            if body.is_sleeping() {
+                return None;
+            }
+            body.predict_position_using_velocity(dt)
+        }
+    };
+    (end != *body.position()).then_some(end)
+}
+
+/// A symmetric matrix in full.
+fn symmetric(m: &AngularInertia) -> Mat3 {
+    Mat3::from_cols(
+        Vec3::new(m.m11, m.m12, m.m13),
+        Vec3::new(m.m12, m.m22, m.m23),
+        Vec3::new(m.m13, m.m23, m.m33),
+    )
+}
+
+/// Fills in how a body moves this tick.
+fn describe_motion(obstacle: &mut Obstacle, body: &RigidBody, origin: Vec3, dt: f32) {
+    match body.body_type() {
+        RigidBodyType::Fixed => {}
+        RigidBodyType::Dynamic => {
+            obstacle.kind = ObstacleKind::Dynamic;
+            let properties = body.mass_properties();
+            let center = body.center_of_mass() - origin;
+            let dynamics = Dynamics {
+                linear_velocity: body.linvel(),
+                angular_velocity: body.angvel(),
+                center,
+                inverse_mass: properties.effective_inv_mass,
+                inverse_inertia: symmetric(&properties.effective_world_inv_inertia),
+            };
+            if !body.is_sleeping() {
+                obstacle.motion = Motion {
+                    pivot: center,
+                    linear: dynamics.linear_velocity * dt,
+                    turn: dynamics.angular_velocity * dt,
+                };
+            }
+            obstacle.dynamics = Some(dynamics);
+        }
+        RigidBodyType::KinematicPositionBased | RigidBodyType::KinematicVelocityBased => {
+            if let Some(end) = end_of_tick(body, dt) {
+                let start = body.position();
+                obstacle.kind = ObstacleKind::Kinematic;
+                let turn = end.rotation * start.rotation.inverse();
+                obstacle.motion = Motion {
+                    pivot: start.translation - origin,
+                    linear: end.translation - start.translation,
+                    turn: if end.rotation == start.rotation {
+                        Vec3::ZERO
+                    } else {
+                        turn.to_scaled_axis()
+                    },
+                };
+            }
+        }
+    }
+}
+
+/// All physics worlds, to be written.
+#[derive(SystemParam)]
+pub(crate) struct PhysicsWorldsMut<'w, 's> {
+    contexts: Query<
+        'w,
+        's,
+        (
+            &'static mut RapierContextSimulation,
+            &'static mut RapierContextColliders,
+            &'static mut RapierRigidBodySet,
+        ),
+    >,
+}
+
+impl PhysicsWorldsMut<'_, '_> {
+    /// Brings the search tree up to the tick that is about to run: what was spawned or placed since
+    /// the last step, and the whole way of everything that moves. Marks where anything moves.
+    ///
+    /// `is_own` tells the bodies whose motion the caller decides, which are left alone;
+    /// `touched` are the colliders that were added or placed.
+    pub fn refresh<'a>(
+        &mut self,
+        dt: f32,
+        touched: impl Iterator<Item = (&'a RapierColliderHandle, &'a RapierContextEntityLink)>,
+        is_own: impl Fn(Entity) -> bool,
+        activity: &mut Activity,
+    ) {
+        for (mut simulation, mut colliders, bodies) in &mut self.contexts {
+            let simulation = &mut *simulation;
+            bodies
+                .bodies
+                .propagate_modified_body_positions_to_colliders(
+                    &mut colliders.bypass_change_detection().colliders,
+                );
+            for handle in simulation.islands.active_bodies() {
+                let Some(body) = bodies.bodies.get(handle) else {
+                    continue;
+                };
+                if !body.is_enabled() || is_own(Entity::from_bits(body.user_data as u64)) {
+                    continue;
+                }
+                let Some(end) = end_of_tick(body, dt) else {
+                    continue;
+                };
+                for collider in body.colliders() {
+                    let Some((co, local)) = colliders
+                        .colliders
+                        .get(*collider)
+                        .and_then(|co| Some((co, co.position_wrt_parent()?)))
+                    else {
+                        continue;
+                    };
+                    if !co.is_enabled() {
+                        continue;
+                    }
+                    let aabb = co.compute_swept_aabb(&(end * *local));
+                    activity.mark(aabb.mins, aabb.maxs);
+                    if aabb.mins.is_finite() && aabb.maxs.is_finite() {
+                        simulation.broad_phase.set_aabb(
+                            &simulation.integration_parameters,
+                            *collider,
+                            aabb,
+                        );
+                    }
+                }
+            }
+        }
+        for (handle, link) in touched {
+            let Ok((mut simulation, colliders, bodies)) = self.contexts.get_mut(link.0) else {
+                continue;
+            };
+            let Some(collider) = colliders.colliders.get(handle.0) else {
+                continue;
+            };
+            let aabb = collider.compute_aabb();
+            if !collider.is_enabled() || !aabb.mins.is_finite() || !aabb.maxs.is_finite() {
+                continue;
+            }
+            activity.mark(aabb.mins, aabb.maxs);
+            let simulation = &mut *simulation;
+            // A body that moves this tick has its whole way in the tree already.
+            let pipeline = simulation.broad_phase.as_query_pipeline(
+                &DefaultQueryDispatcher,
+                &bodies.bodies,
+                &colliders.colliders,
+                QueryFilter::default(),
+            );
+            let aabb = match pipeline.bvh.leaf_node(handle.0.into_raw_parts().0) {
+                Some(node) => node.aabb().merged(&aabb),
+                None => aabb,
+            };
+            simulation.broad_phase.set_aabb(
+                &simulation.integration_parameters,
+                handle.0,
+                aabb,
+            );
+        }
+    }
+
+    /// Tells a kinematic body where to be at the end of the tick. With `jump` it is there at once,
+    /// without sweeping aside what lies between.
+    pub fn move_body(
+        &mut self,
+        link: &RapierContextEntityLink,
+        handle: &RapierRigidBodyHandle,
+        position: Vec3,
+        rotation: Quat,
+        jump: Option<WorldPose>,
+    ) {
+        if let Ok((_, _, mut bodies)) = self.contexts.get_mut(link.0)
+            && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
+        {
+            if let Some(from) = jump {
+                body.set_position(Pose::from_parts(from.position, from.rotation), true);
+            }
+            body.set_next_kinematic_position(Pose::from_parts(position, rotation));
+        }
+    }
+
+    /// Gives a dynamic body an impulse at a point of the world. A sleeping body is left asleep
+    /// unless `wake`.
+    pub fn apply_impulse(
+        &mut self,
+        link: &RapierContextEntityLink,
+        body: Entity,
+        impulse: Vec3,
+        point: Vec3,
+        wake: bool,
+    ) {
+        if let Ok((_, _, mut bodies)) = self.contexts.get_mut(link.0) {
+            let Some(handle) = bodies.entity2body().get(&body).copied() else {
+                return;
+            };
+            if let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle)
+                && body.is_dynamic()
+                && (wake || !body.is_sleeping())
+            {
+                body.apply_impulse_at_point(impulse, point, wake);
+            }
+        }
+    }
+}

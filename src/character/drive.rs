@@ -1,0 +1,164 @@
+//! The systems of the tick between synchronisation and step: bring the search tree up to date,
+//! solve every character against it, then write all results in a fixed order.
+//!
+//! Characters are solved in parallel against the same unchanging world and each other's published
+//! wishes, and every effect is collected first, so neither threads nor order matter.
+
+use bevy::{prelude::*, utils::Parallel};
+use bevy_rapier3d::{
+    plugin::context::RapierContextEntityLink,
+    prelude::{Collider, CollisionGroups, RapierColliderHandle, RapierRigidBodyHandle},
+};
+
+use super::{
+    body::CharacterBody,
+    config::Character,
+    intent::CharacterIntent,
+    motor::CharacterMotor,
+    output::{CharacterContacts, CharacterSnapshot},
+    report::{BodyImpulse, CharacterReport},
+    solver::Scratch,
+    state::CharacterState,
+    surface::{CharacterFilter, CharacterIgnores, NotPushable, SurfaceGrip, SurfaceVelocity},
+    tick::{Surroundings, Tick},
+};
+use crate::backend::{
+    activity::Activity,
+    world::{PhysicsWorlds, PhysicsWorldsMut},
+};
+
+/// What a change to a collider that was made since the last tick looks like.
+type Touched = Or<(
+    Added<RapierColliderHandle>,
+    Changed<GlobalTransform>,
+    Changed<Collider>,
+    Changed<CollisionGroups>,
+    Changed<SurfaceVelocity>,
+    Changed<SurfaceGrip>,
+)>;
+
+/// Brings the search tree up to the tick and marks where anything moves.
+pub(super) fn refresh_world(
+    time: Res<Time>,
+    mut worlds: PhysicsWorldsMut,
+    mut activity: ResMut<Activity>,
+    touched: Query<
+        (&RapierColliderHandle, &RapierContextEntityLink),
+        (Touched, Without<Character>),
+    >,
+    own: Query<(), With<Character>>,
+    moving: Query<(&CharacterSnapshot, &CharacterBody, &GlobalTransform)>,
+) {
+    let dt = time.delta_secs();
+    activity.clear();
+    worlds.refresh(dt, touched.iter(), |entity| own.contains(entity), &mut activity);
+    for (snapshot, body, pose) in &moving {
+        if snapshot.active
+            && let Some(mover) = &body.mover
+        {
+            let middle = pose.translation() + pose.up() * mover.middle;
+            let reach = Vec3::splat(mover.reach + snapshot.velocity.length() * dt + 0.1);
+            activity.mark(middle - reach, middle + reach);
+        }
+    }
+}
+
+/// Solves every character that has anything to do.
+pub(super) fn solve_characters(
+    time: Res<Time>,
+    worlds: PhysicsWorlds,
+    activity: Res<Activity>,
+    surfaces: Query<(Option<&'static SurfaceVelocity>, Option<&'static SurfaceGrip>)>,
+    others: Query<&'static CharacterSnapshot>,
+    walls: Query<(), With<NotPushable>>,
+    mut characters: Query<(
+        (Entity, &Character, &CharacterMotor, &CharacterIntent),
+        (&RapierContextEntityLink, &RapierRigidBodyHandle),
+        (
+            Option<&CollisionGroups>,
+            Option<&CharacterFilter>,
+            Option<&CharacterIgnores>,
+        ),
+        &mut CharacterBody,
+        &mut CharacterState,
+        &mut CharacterContacts,
+        &mut CharacterReport,
+    )>,
+    scratch: Local<Parallel<Scratch>>,
+) {
+    let dt = time.delta_secs();
+    if !(dt > 0.0) {
+        return;
+    }
+    characters.par_iter_mut().for_each(
+        |(
+            (entity, config, motor, intent),
+            (link, handle),
+            (groups, filter, ignores),
+            mut body,
+            mut state,
+            mut contacts,
+            mut report,
+        )| {
+            let Some(view) = worlds.of(link) else { return };
+            if !view.active {
+                return;
+            }
+            let surroundings = Surroundings {
+                entity,
+                view,
+                dt,
+                groups: groups.copied().unwrap_or_default(),
+                filter,
+                ignores,
+                activity: &activity,
+                surfaces: &surfaces,
+                others: &others,
+                walls: &walls,
+            };
+            let Some(tick) = Tick::begin(
+                &surroundings,
+                config,
+                motor,
+                intent,
+                handle,
+                &mut body,
+                &mut state,
+                &mut contacts,
+                &mut report,
+            ) else {
+                return;
+            };
+            scratch.scope(|scratch| tick.run(scratch));
+        },
+    );
+}
+
+/// Writes what the ticks decided: impulses by order of character, then the characters' poses.
+pub(super) fn apply_effects(
+    mut worlds: PhysicsWorldsMut,
+    mut characters: Query<(
+        Entity,
+        &RapierContextEntityLink,
+        &RapierRigidBodyHandle,
+        &mut CharacterReport,
+    )>,
+    mut impulses: Local<Vec<(Entity, RapierContextEntityLink, BodyImpulse)>>,
+) {
+    impulses.clear();
+    for (entity, link, handle, mut report) in &mut characters {
+        if !report.solved {
+            continue;
+        }
+        let report = report.bypass_change_detection();
+        impulses.extend(report.impulses.drain(..).map(|i| (entity, *link, i)));
+        if let Some(target) = report.target.take() {
+            worlds.move_body(link, handle, target.position, target.rotation, report.jump.take());
+        }
+    }
+    // Stable: one character's impulses keep the order in which it met the bodies.
+    impulses.sort_by_key(|(entity, ..)| *entity);
+    for (_, link, i) in impulses.iter() {
+        worlds.apply_impulse(link, i.body, i.impulse, i.point, i.wake);
+    }
+}

@@ -1,0 +1,123 @@
+//! What holds the character up.
+
+use bevy::prelude::*;
+
+use super::{SUPPORT, Solver, TOUCH, touch::Bend};
+use crate::{
+    character::state::GroundState,
+    math::planes::{HalfSpace, nearest_yielding},
+};
+
+/// On an edge with level ground behind it the character stands as long as the contact points up by
+/// at least this much (the sine of its angle to level); beyond it slips off.
+const PERCH: f32 = 0.3;
+/// While walking it is held by less, so that the last moment on a step is not a fall.
+const PERCH_WALKING: f32 = 0.03;
+
+/// What was found below.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Support {
+    pub state: GroundState,
+    pub obstacle: Option<u32>,
+    pub normal: Vec3,
+    pub point: Vec3,
+    pub distance: f32,
+}
+
+impl Solver<'_> {
+    /// Finds out what holds the mover at `p` when the tick has passed.
+    pub fn support(&mut self, p: Vec3, walking: bool) -> Support {
+        let perch = if walking { PERCH_WALKING } else { PERCH };
+        self.touch(p, 1.0, SUPPORT);
+        let mut best: Option<(f32, Support)> = None;
+        let mut mean = Vec3::ZERO;
+        let mut steep: Option<(f32, Support)> = None;
+        let mut steep_mean = Vec3::ZERO;
+        for touch in self.touches.iter() {
+            let rise = touch.normal.dot(self.up);
+            if rise < 0.02 {
+                continue;
+            }
+            let surface = if self.walkable(touch.surface) && touch.surface.dot(self.up) > rise {
+                touch.surface
+            } else {
+                touch.normal
+            };
+            let holds = touch.bend == Bend::Ground || (self.walkable(surface) && rise >= perch);
+            let found = Support {
+                state: GroundState::OnGround,
+                obstacle: Some(touch.obstacle),
+                normal: surface,
+                point: touch.point,
+                distance: touch.distance,
+            };
+            if holds {
+                mean += surface;
+                if best.is_none_or(|(most, _)| rise > most) {
+                    best = Some((rise, found));
+                }
+            } else {
+                steep_mean += touch.normal;
+                if steep.is_none_or(|(most, _)| rise > most) {
+                    steep = Some((rise, found));
+                }
+            }
+        }
+        if let Some((_, found)) = best {
+            return Support {
+                normal: mean.normalize_or(found.normal),
+                ..found
+            };
+        }
+        let Some((_, found)) = steep else {
+            return Support {
+                state: if self.touches.is_empty() {
+                    GroundState::InAir
+                } else {
+                    GroundState::Unsupported
+                },
+                obstacle: None,
+                normal: self.up,
+                point: p,
+                distance: f32::MAX,
+            };
+        };
+        // Steep walls hold together what each alone does not: would a fall get anywhere?
+        self.planes.clear();
+        for touch in self.touches.iter() {
+            self.planes.push(HalfSpace {
+                normal: touch.normal.as_dvec3(),
+                bound: 0.0,
+                yields: 0,
+            });
+        }
+        let (fall, _) = nearest_yielding(-self.up.as_dvec3(), self.planes);
+        if fall.length() as f32 <= self.sin_slope {
+            return Support {
+                normal: steep_mean.normalize_or(self.up),
+                ..found
+            };
+        }
+        Support {
+            state: GroundState::Steep,
+            ..found
+        }
+    }
+
+    /// Looks for ground below `p` within the snap distance; where the foot then is, and on what.
+    pub fn snap(&mut self, p: Vec3, walking: bool) -> Option<(Vec3, Support)> {
+        let reach = self.config.ground_snap;
+        if !(reach > 0.0) {
+            return None;
+        }
+        self.touch(p, 1.0, TOUCH);
+        let down = -self.up * reach;
+        let s = self.sweep(p, down, 1.0, 1.0);
+        if s >= 1.0 {
+            return None;
+        }
+        let q = p + down * s;
+        let support = self.support(q, walking);
+        (support.state == GroundState::OnGround).then_some((q, support))
+    }
+}

@@ -1,0 +1,95 @@
+//! Exchange of momentum with dynamic bodies.
+//!
+//! A contact with a body is a plastic impact between the character's mass and the mass that the
+//! body opposes at the contact: both go on with the common velocity. What the character gives is
+//! limited by its strength times the tick, so a heavy box does not move and a light one never
+//! becomes faster than the character; on top of its feet its weight is not limited. What it
+//! receives is not limited: a truck wins.
+//!
+//! The impulse enters the body before the physics step, and the body's predicted motion with it, so
+//! the solver below sees the same velocity as the character did and finds nothing to correct.
+
+use bevy::prelude::*;
+
+use super::Solver;
+use crate::backend::neighbourhood::ObstacleKind;
+
+/// An impulse for a body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Impulse {
+    /// Index of the obstacle.
+    pub obstacle: u32,
+    /// Entity of the body.
+    pub body: Entity,
+    /// Newton-seconds, world axes.
+    pub impulse: Vec3,
+    /// Where, relative to the neighbourhood's origin.
+    pub point: Vec3,
+}
+
+impl Solver<'_> {
+    /// Lets touch `i` and the motion `rest` exchange momentum, once per body and tick.
+    pub fn exchange_momentum(&mut self, i: usize, rest: Vec3, t: f32) {
+        let touch = self.touches[i];
+        let obstacle = &self.near.obstacles[touch.obstacle as usize];
+        if obstacle.kind != ObstacleKind::Dynamic || t >= 1.0 {
+            return;
+        }
+        let Some(mut body) = obstacle.dynamics else {
+            return;
+        };
+        let n = touch.normal;
+        let own = rest.dot(n) / (self.dt * (1.0 - t).max(1.0e-3));
+        let other = body.velocity_at(touch.point).dot(n);
+        let closing = other - own;
+        if closing <= 1.0e-4 || self.impulses.iter().any(|known| known.obstacle == touch.obstacle) {
+            return;
+        }
+        let mass = body.effective_mass(touch.point, n);
+        let reduced = if mass >= f32::MAX {
+            self.config.mass
+        } else {
+            mass * self.config.mass / (mass + self.config.mass)
+        };
+        let full = reduced * closing;
+        // What the body brings in itself is stopped whole; beyond that it is the character who works.
+        let received = if self.config.pushed_by_bodies {
+            (reduced * other).clamp(0.0, full)
+        } else {
+            0.0
+        };
+        let under_foot = n.dot(self.up) > 0.7;
+        let given = if under_foot {
+            full - received
+        } else {
+            (full - received).min(self.config.push_strength * self.dt)
+        };
+        let impulse = -n * (received + given);
+        if impulse == Vec3::ZERO {
+            return;
+        }
+        body.apply(impulse, touch.point);
+        let (linear, turn) = (
+            body.linear_velocity * self.dt,
+            body.angular_velocity * self.dt,
+        );
+        let entity = obstacle.body;
+        let center = body.center;
+        // All colliders of the body go with it.
+        for obstacle in &mut self.near.obstacles {
+            if obstacle.body == entity && obstacle.dynamics.is_some() {
+                obstacle.dynamics = Some(body);
+                obstacle.motion.pivot = center;
+                obstacle.motion.linear = linear;
+                obstacle.motion.turn = turn;
+            }
+        }
+        self.near.moving = true;
+        self.impulses.push(Impulse {
+            obstacle: touch.obstacle,
+            body: entity,
+            impulse,
+            point: touch.point,
+        });
+    }
+}

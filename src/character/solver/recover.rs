@@ -1,0 +1,77 @@
+//! Undoing overlaps: the least displacement that parts the character from everything it is inside
+//! of, limited in speed, without touching its velocity.
+
+use bevy::prelude::*;
+
+use super::{Solver, TOUCH};
+use crate::{
+    backend::neighbourhood::ObstacleKind,
+    math::planes::{HalfSpace, nearest_yielding},
+};
+
+impl Solver<'_> {
+    /// Moves out of what the character is inside of at the start of the tick.
+    pub fn recover(&mut self, p: Vec3) -> Vec3 {
+        let inside = self.near.pieces.iter().any(|piece| {
+            piece.clearance < self.near.obstacle(piece).skin - TOUCH
+        });
+        if !inside {
+            return p;
+        }
+        self.touch(p, 0.0, -TOUCH);
+        let most = self.config.recovery_speed * self.dt;
+        self.planes.clear();
+        for touch in self.touches.iter() {
+            let obstacle = &self.near.obstacles[touch.obstacle as usize];
+            let depth = -touch.distance - 0.5 * TOUCH;
+            let share = match obstacle.kind {
+                ObstacleKind::Static | ObstacleKind::Kinematic => 1.0,
+                // The other one does its half.
+                ObstacleKind::Character => 0.5,
+                // A light body is no reason to give way.
+                ObstacleKind::Dynamic => obstacle.dynamics.map_or(1.0, |body| {
+                    let mass = body.effective_mass(touch.point, touch.normal);
+                    mass / (mass + self.config.mass)
+                }),
+            };
+            self.planes.push(HalfSpace {
+                normal: touch.normal.as_dvec3(),
+                bound: f64::from((depth * share).min(most)),
+                yields: obstacle.kind as u8,
+            });
+        }
+        let (x, _) = nearest_yielding(bevy::math::DVec3::ZERO, self.planes);
+        let x = x.as_vec3().clamp_length_max(most);
+        // What is overlapped lets go; everything else stops the way out.
+        let s = self.sweep(p, x, 1.0e-9, 1.0);
+        p + x * s
+    }
+}
+
+impl Solver<'_> {
+    /// What presses into the mover at `p` when the tick has passed, what it is pressed against, and
+    /// how deep it is in: the deepest thing that moves as it wills and the one that opposes it most.
+    pub fn crusher(&mut self, p: Vec3, deeper: f32) -> Option<(u32, Option<u32>, f32)> {
+        self.touch(p, 1.0, TOUCH);
+        let by = *self
+            .touches
+            .iter()
+            .filter(|touch| {
+                let kind = self.near.obstacles[touch.obstacle as usize].kind;
+                kind == ObstacleKind::Kinematic && touch.distance < -deeper
+            })
+            .min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        let against = self
+            .touches
+            .iter()
+            .filter(|touch| touch.obstacle != by.obstacle && touch.normal.dot(by.normal) < 0.0)
+            .min_by(|a, b| a.normal.dot(by.normal).total_cmp(&b.normal.dot(by.normal)))
+            .map(|touch| touch.obstacle);
+        Some((by.obstacle, against, -by.distance))
+    }
+
+    /// What was touched at the last place looked at.
+    pub fn touches_now(&self) -> &[super::Touch] {
+        self.touches
+    }
+}
