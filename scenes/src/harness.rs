@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use bevy::{prelude::*, time::TimeUpdateStrategy};
+use bevy::{app::Plugins, prelude::*, time::TimeUpdateStrategy};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 
