@@ -1,15 +1,21 @@
-//! Characters that walk.
+#![doc = include_str!("../README.md")]
+// Bits must not depend on the platform's mathematics library.
+#![warn(clippy::disallowed_methods)]
 
 mod backend;
+pub mod interpolation;
 mod math;
 mod schedule;
+mod teleport;
 
 #[cfg(feature = "character")]
 pub mod character;
 
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
+pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
+pub use teleport::Teleported;
 
 /// Everything that the enabled features offer, ready to use.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,7 +23,9 @@ pub struct EmbodyPlugins;
 
 impl PluginGroup for EmbodyPlugins {
     fn build(self) -> PluginGroupBuilder {
-        let group = PluginGroupBuilder::start::<Self>().add(EmbodyCorePlugin);
+        let group = PluginGroupBuilder::start::<Self>()
+            .add(EmbodyCorePlugin)
+            .add(interpolation::EmbodyInterpolationPlugin);
         #[cfg(feature = "character")]
         let group = group.add(character::CharacterPlugin);
         group
@@ -36,5 +44,8 @@ pub mod prelude {
         SurfaceVelocity, UpDirection, WaterVolume,
     };
     #[doc(hidden)]
-    pub use crate::{EmbodyCorePlugin, EmbodyPlugins, EmbodySystems};
+    pub use crate::{
+        EmbodyCorePlugin, EmbodyDiagnosis, EmbodyPlugins, EmbodyProblem, EmbodySystems, Teleported,
+        interpolation::{EmbodyInterpolationPlugin, Interpolated},
+    };
 }

@@ -3,14 +3,22 @@
 use bevy::prelude::*;
 use bevy_rapier3d::prelude::PhysicsSet;
 
-use crate::backend::setup;
+use crate::backend::{checks, setup, teleport};
 
 /// The places of a tick where `bevy_embody` works.
+///
+/// The first three run in `FixedPostUpdate`, around Rapier's [`PhysicsSet`]s; what a game writes in
+/// `FixedUpdate` is used by the same tick.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EmbodySystems {
     /// Before the physics backend takes over component changes: bodies are built and switched.
+    ///
+    /// A change of a component made here or earlier acts in this tick.
     Prepare,
     /// Between the backend's synchronisation and its step: sense, solve, write.
+    ///
+    /// Writes go straight to the backend's bodies. Before this set they would be overwritten by
+    /// the components, and components written here wait for the next tick.
     Drive,
     /// After the results are written back: state, events, diagnostics.
     React,
@@ -20,12 +28,20 @@ pub enum EmbodySystems {
 
 /// The fixed-step set-up that every system stands on: physics in `FixedPostUpdate` at the rate of
 /// [`Time<Fixed>`], in the order of [`EmbodySystems`].
+///
+/// Rapier's plugin is added unless the app adds it itself, before or after this one; an app that
+/// does should put it `.in_schedule(FixedPostUpdate)`. The tick rate is that of [`Time<Fixed>`],
+/// also when it changes at run time; Rapier's
+/// [`TimestepMode`](bevy_rapier3d::prelude::TimestepMode) is only asked for its substeps.
+/// Settings that cannot work are reported once, see [`EmbodyDiagnosis`](crate::EmbodyDiagnosis).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EmbodyCorePlugin;
 
 impl Plugin for EmbodyCorePlugin {
     fn build(&self, app: &mut App) {
-        setup::add_physics(app);
+        checks::add_checks(app);
+        setup::add_clock(app);
+        teleport::add_teleports(app);
         app.configure_sets(
             FixedPostUpdate,
             (
@@ -40,5 +56,12 @@ impl Plugin for EmbodyCorePlugin {
             PostUpdate,
             EmbodySystems::Present.before(TransformSystems::Propagate),
         );
+    }
+
+    // Here every plugin of the app is known, whatever the order in which they were added.
+    fn finish(&self, app: &mut App) {
+        setup::add_physics(app);
+        checks::check_schedules(app);
+        setup::adopt_timestep(app);
     }
 }

@@ -15,8 +15,13 @@ pub struct Sim {
 
 impl Sim {
     /// An empty world under 9.81 m/s² that ticks at `hz`.
+    ///
+    /// Without interpolation, so that a `Transform` read between ticks is the exact pose.
     pub fn new(hz: f64) -> Self {
-        Self::with(hz, EmbodyPlugins)
+        Self::with(
+            hz,
+            EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>(),
+        )
     }
 
     /// An empty world with these plugins beside Bevy's minimal ones.
@@ -112,11 +117,7 @@ impl Sim {
 
     /// Changes a character's intent.
     pub fn intent(&mut self, character: Entity, change: impl FnOnce(&mut CharacterIntent)) {
-        if let Some(mut intent) = self
-            .app
-            .world_mut()
-            .get_mut::<CharacterIntent>(character)
-        {
+        if let Some(mut intent) = self.app.world_mut().get_mut::<CharacterIntent>(character) {
             change(&mut intent);
         }
     }

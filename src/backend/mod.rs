@@ -1,6 +1,8 @@
 //! The only place that names Rapier's internals: everything above works on plain geometry.
 
+pub(crate) mod checks;
 pub(crate) mod setup;
+pub(crate) mod teleport;
 
 #[cfg(feature = "character")]
 pub(crate) mod activity;

@@ -1,6 +1,6 @@
 //! Tunnelling, crushing, overlaps, bad input, things that vanish: always a defined, finite state.
 
-use bevy::prelude::*;
+use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::{Make, Patch, Sim};
@@ -208,7 +208,7 @@ fn a_start_inside_anything_ends_outside_or_at_rest() {
                     "middle of a closed mesh"
                 }
                 2 => {
-                    let mesh = Patch::terrain(20, 0.5, |x, z| 0.3 * bevy::math::ops::sin(x + z));
+                    let mesh = Patch::terrain(20, 0.5, |x, z| 0.3 * ops::sin(x + z));
                     sim.fixed(mesh.collider(), Transform::from_xyz(-5.0, 0.5, -5.0));
                     "across a terrain mesh"
                 }

@@ -21,3 +21,4 @@ mod stance;
 mod upward;
 mod volumes;
 mod walls;
+

@@ -2,7 +2,10 @@
 
 use std::{fmt::Display, thread};
 
-use bevy::prelude::*;
+use bevy::{
+    math::{DVec3, ops},
+    prelude::*,
+};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::{parry, parry::math::Pose, prelude::*};
 use embody_scenes::Sim;
@@ -141,13 +144,13 @@ pub fn insert(sim: &mut Sim, entity: Entity, bundle: impl Bundle) {
 }
 
 /// Position with the part that single precision cannot hold, as double precision.
-pub fn exact_position(sim: &Sim, character: Entity) -> bevy::math::DVec3 {
+pub fn exact_position(sim: &Sim, character: Entity) -> DVec3 {
     sim.position(character).as_dvec3() + sim.state(character).residual.as_dvec3()
 }
 
 /// A level direction at this angle from `+X` towards `+Z`, degrees.
 pub fn heading(degrees: f32) -> Vec3 {
-    let (sin, cos) = bevy::math::ops::sin_cos(degrees.to_radians());
+    let (sin, cos) = ops::sin_cos(degrees.to_radians());
     Vec3::new(cos, 0.0, sin)
 }
 
@@ -241,7 +244,7 @@ pub fn take_events(sim: &mut Sim) -> EventLog {
 
 /// Tangents and normals of a slope of this angle (radians) that rises along `+X`.
 pub fn slope_axes(angle: f32) -> (Vec3, Vec3) {
-    let (sin, cos) = bevy::math::ops::sin_cos(angle);
+    let (sin, cos) = ops::sin_cos(angle);
     (Vec3::new(cos, sin, 0.0), Vec3::new(-sin, cos, 0.0))
 }
 

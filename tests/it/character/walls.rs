@@ -1,6 +1,6 @@
 //! Gliding along walls of every make, past seams, pillars and into ceilings.
 
-use bevy::prelude::*;
+use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::{Make, Sim};
@@ -81,7 +81,7 @@ fn glide(found: &mut Findings, kind: WallKind, hz: f64, yaw: f32, motor: Charact
     ));
     sim.seconds(0.5);
     // Ten degrees into the wall.
-    let (sin, cos) = bevy::math::ops::sin_cos(10f32.to_radians());
+    let (sin, cos) = ops::sin_cos(10f32.to_radians());
     sim.walk(walker, along * cos - face * sin);
     sim.seconds(0.4);
     let start = sim.position(walker);
@@ -173,7 +173,7 @@ fn the_speed_of_a_glide_is_the_projection_at_every_angle() {
         let start: Vec<f32> = walkers.iter().map(|w| sim.position(w.0).x).collect();
         sim.seconds(1.0);
         for (&(walker, degrees), start) in walkers.iter().zip(start) {
-            let wanted = SPEED * bevy::math::ops::cos(f32::to_radians(degrees));
+            let wanted = SPEED * ops::cos(f32::to_radians(degrees));
             let measured = sim.position(walker).x - start;
             found.within(format!("{hz} Hz {degrees}°: speed"), measured, wanted, 0.002);
         }

@@ -1,0 +1,97 @@
+//! The palette.
+
+/// A material: one calm colour each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Paint {
+    Plaza,
+    Stone,
+    Slate,
+    Ink,
+    White,
+    Teal,
+    Coral,
+    Indigo,
+    Amber,
+    Sand,
+    Leaf,
+    Wood,
+    Metal,
+    Rose,
+    Water,
+}
+
+impl Paint {
+    pub const ALL: [Self; 15] = [
+        Self::Plaza,
+        Self::Stone,
+        Self::Slate,
+        Self::Ink,
+        Self::White,
+        Self::Teal,
+        Self::Coral,
+        Self::Indigo,
+        Self::Amber,
+        Self::Sand,
+        Self::Leaf,
+        Self::Wood,
+        Self::Metal,
+        Self::Rose,
+        Self::Water,
+    ];
+
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
+
+    /// Colour on the screen, red green blue.
+    fn screen(self) -> u32 {
+        match self {
+            Self::Plaza => 0xded8ca,
+            Self::Stone => 0xb9b3a7,
+            Self::Slate => 0x5d6873,
+            Self::Ink => 0x2e343d,
+            Self::White => 0xf6f3ea,
+            Self::Teal => 0x4a9d95,
+            Self::Coral => 0xd97b5f,
+            Self::Indigo => 0x6373b3,
+            Self::Amber => 0xe9b94d,
+            Self::Sand => 0xdcc48e,
+            Self::Leaf => 0x7ba872,
+            Self::Wood => 0xa87f56,
+            Self::Metal => 0x97a1a9,
+            Self::Rose => 0xc4707f,
+            Self::Water => 0x3f97c8,
+        }
+    }
+
+    pub fn alpha(self) -> f32 {
+        if self == Self::Water { 0.5 } else { 1.0 }
+    }
+
+    pub fn roughness(self) -> f32 {
+        match self {
+            Self::Water => 0.1,
+            Self::Metal => 0.45,
+            _ => 0.85,
+        }
+    }
+
+    pub fn metallic(self) -> f32 {
+        if self == Self::Metal { 0.6 } else { 0.0 }
+    }
+
+    /// Linear RGBA as glTF wants it.
+    pub fn linear(self) -> [f32; 4] {
+        let channel = |shift: u32| {
+            let value = f64::from((self.screen() >> shift) & 0xff) / 255.0;
+            let linear = if value <= 0.04045 {
+                value / 12.92
+            } else {
+                ((value + 0.055) / 1.055).powf(2.4)
+            };
+            // Three digits are plenty, and the same on every machine.
+            ((linear * 1000.0).round() / 1000.0) as f32
+        };
+        [channel(16), channel(8), channel(0), self.alpha()]
+    }
+}

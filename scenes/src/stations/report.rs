@@ -1,0 +1,87 @@
+//! Plays stations without a window and shows the outcome.
+
+use core::fmt::Write;
+
+use bevy::{ecs::system::RunSystemOnce, prelude::*};
+
+use super::{StationResult, StationRun, stations};
+use crate::{
+    Sim,
+    course::{Course, CourseError, CoursePlugin, spawn_course},
+};
+
+/// Plays every station whose name contains `filter`, each in a fresh world at `hz`, with the
+/// course of this project.
+///
+/// # Errors
+/// When the course cannot be loaded.
+pub fn run_headless(filter: Option<&str>, hz: f64) -> Result<Vec<StationResult>, CourseError> {
+    Ok(run_headless_with(
+        &Course::load(Course::default_path())?,
+        filter,
+        hz,
+    ))
+}
+
+/// As [`run_headless`], with this course.
+pub fn run_headless_with(course: &Course, filter: Option<&str>, hz: f64) -> Vec<StationResult> {
+    stations()
+        .into_iter()
+        .filter(|station| filter.is_none_or(|part| station.name.contains(part)))
+        .map(|station| {
+            let mut sim = Sim::with(hz, (bevy_embody::EmbodyPlugins, CoursePlugin));
+            sim.app.insert_resource(course.clone());
+            let spawned = sim
+                .app
+                .world_mut()
+                .run_system_once(|mut commands: Commands, course: Res<Course>| {
+                    spawn_course(&mut commands, &course);
+                });
+            debug_assert!(spawned.is_ok(), "the course is a resource");
+            // Queries see colliders from the tick after they were spawned.
+            sim.ticks(2);
+            let mut run = StationRun::begin(sim.app.world_mut(), station);
+            while !run.tick(sim.app.world_mut()) {
+                sim.ticks(1);
+            }
+            run.result()
+        })
+        .collect()
+}
+
+/// What was asked and what happened, one line per check; the last line is `N passed, N failed`.
+pub fn table(results: &[StationResult]) -> String {
+    let name = results.iter().map(|r| r.name.len()).max().unwrap_or(0);
+    let asked = results
+        .iter()
+        .flat_map(|r| &r.checks)
+        .map(|check| check.asked.len())
+        .max()
+        .unwrap_or(0);
+    let mut text = String::new();
+    for result in results {
+        for (i, check) in result.checks.iter().enumerate() {
+            let mark = if check.pass { "ok  " } else { "FAIL" };
+            let label = if i == 0 { result.name.as_str() } else { "" };
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{label:name$}  {mark}  {:asked$}  {}",
+                check.asked, check.got
+            );
+        }
+    }
+    let passed = results.iter().filter(|result| result.passed()).count();
+    let _ = writeln!(
+        text,
+        "{passed} passed, {} failed",
+        results.len() - passed
+    );
+    text
+}
+
+/// Prints the [`table`].
+#[expect(clippy::print_stdout, reason = "the table is what a headless run is for")]
+pub fn print_table(results: &[StationResult]) {
+    print!("{}", table(results));
+}
