@@ -1,5 +1,6 @@
 //! Scenes, harness and example shell shared by the tests, examples and lab of `bevy_embody`.
 
+pub mod builders;
 pub mod course;
 pub mod harness;
 #[cfg(feature = "window")]
@@ -7,4 +8,5 @@ pub mod shell;
 pub mod stations;
 pub mod wavy;
 
+pub use builders::{FloorKind, Make, Mover, Patch, StairCeiling, Stairs};
 pub use harness::Sim;
