@@ -279,7 +279,9 @@ fn describe_motion(obstacle: &mut Obstacle, body: &RigidBody, origin: Vec3, dt: 
             if let Some(end) = end_of_tick(body, dt) {
                 let start = body.position();
                 obstacle.kind = ObstacleKind::Kinematic;
+                // Of the two quaternions of a turn the one by less than half a circle.
                 let turn = end.rotation * start.rotation.inverse();
+                let turn = if turn.w < 0.0 { -turn } else { turn };
                 obstacle.motion = Motion {
                     pivot: start.translation - origin,
                     linear: end.translation - start.translation,
