@@ -8,7 +8,7 @@
 //! iteration, no stability limit. Cost grows with the cube of the number of *violated* planes'
 //! neighbours; callers keep it below [`MAX_PLANES`].
 
-use bevy::math::{DMat3, DVec3};
+use bevy::math::{DMat3, DVec3, Vec3};
 
 /// Most planes that one solve takes into account.
 pub(crate) const MAX_PLANES: usize = 24;
@@ -20,6 +20,18 @@ pub(crate) struct HalfSpace {
     pub bound: f64,
     /// Who gives way when not all can be kept: the higher number first.
     pub yields: u8,
+}
+
+impl HalfSpace {
+    /// The half-space of points at least `bound` along `normal`, who yields `yields`.
+    pub fn new(normal: Vec3, bound: f32, yields: u8) -> Self {
+        Self {
+            // Single precision leaves it longer or shorter than one by more than the tolerance.
+            normal: normal.as_dvec3().normalize_or_zero(),
+            bound: f64::from(bound),
+            yields,
+        }
+    }
 }
 
 const TOLERANCE: f64 = 1.0e-9;

@@ -14,6 +14,9 @@ const PERCH: f32 = 0.3;
 /// While walking it is held by less, so that the last moment on a step is not a fall.
 const PERCH_WALKING: f32 = 0.03;
 
+/// How far aside an edge may turn the way down to the ground, metres.
+const GRAZE: f32 = 0.02;
+
 /// What was found below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Support {
@@ -85,11 +88,7 @@ impl Solver<'_> {
         // Steep walls hold together what each alone does not: would a fall get anywhere?
         self.planes.clear();
         for touch in self.touches.iter() {
-            self.planes.push(HalfSpace {
-                normal: touch.normal.as_dvec3(),
-                bound: 0.0,
-                yields: 0,
-            });
+            self.planes.push(HalfSpace::new(touch.normal, 0.0, 0));
         }
         let (fall, _) = nearest_yielding(-self.up.as_dvec3(), self.planes);
         if fall.length() as f32 <= self.sin_slope {
@@ -117,6 +116,19 @@ impl Solver<'_> {
             return None;
         }
         let q = p + down * s;
+        let support = self.support(q, walking);
+        if support.state == GroundState::OnGround {
+            return Some((q, support));
+        }
+        // The rim of the edge just left, which a round foot still grazes, is passed on the way.
+        let (velocity, blockers, pinned) = (self.velocity, self.blockers.len(), self.pinned);
+        let q = self.slide(q, down * (1.0 - s), 1.0, false);
+        self.velocity = velocity;
+        self.blockers.truncate(blockers);
+        self.pinned = pinned;
+        if self.level(q - p).length() > GRAZE {
+            return None;
+        }
         let support = self.support(q, walking);
         (support.state == GroundState::OnGround).then_some((q, support))
     }

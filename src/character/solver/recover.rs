@@ -34,11 +34,7 @@ impl Solver<'_> {
                     mass / (mass + self.config.mass)
                 }),
             };
-            self.planes.push(HalfSpace {
-                normal: touch.normal.as_dvec3(),
-                bound: f64::from((depth * share).min(most)),
-                yields: obstacle.kind as u8,
-            });
+            self.planes.push(HalfSpace::new(touch.normal, (depth * share).min(most), obstacle.kind as u8));
         }
         let (x, _) = nearest_yielding(bevy::math::DVec3::ZERO, self.planes);
         let x = x.as_vec3().clamp_length_max(most);

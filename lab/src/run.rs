@@ -1,0 +1,193 @@
+//! One world, run and measured in this process.
+
+use std::{collections::BTreeMap, time::Instant};
+
+use bevy::{
+    app::TaskPoolOptions,
+    ecs::schedule::{Schedules, SingleThreadedExecutor},
+    prelude::*,
+};
+use bevy_embody::EmbodyCorePlugin;
+use clap::Args;
+use embody_scenes::{
+    Sim,
+    wavy::{LOWEST, StableId, Walker},
+};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    probe::Probe,
+    scene,
+    side::{Side, SidePlugin},
+};
+
+/// Which world, and for how long.
+#[derive(Args, Clone, Debug)]
+pub struct Options {
+    /// Name of the scene.
+    #[arg(long, default_value = "characters")]
+    pub scene: String,
+    /// Whose controller.
+    #[arg(long, value_enum, default_value = "ours")]
+    pub only: Side,
+    /// Threads that compute; on one, systems run one after another without an executor's threads.
+    #[arg(long, default_value_t = 1)]
+    pub threads: usize,
+    /// Number of characters.
+    #[arg(long, default_value_t = 100)]
+    pub characters: u32,
+    /// Ticks of 1/60 s that are measured.
+    #[arg(long, default_value_t = 500)]
+    pub steps: usize,
+    /// Ticks before those; the scene's own number when left out.
+    #[arg(long)]
+    pub warm_up: Option<usize>,
+    /// Prints everything as one line of JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What a world cost.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Measured {
+    /// The characters' work, nanoseconds in each tick.
+    pub work: Vec<u64>,
+    /// A whole update of the app, nanoseconds in each tick.
+    pub whole: Vec<u64>,
+    /// Heap allocations during the characters' work, in each tick.
+    pub allocations: Vec<u64>,
+    /// Hash of where everything that moves is in the end.
+    pub hash: u64,
+    /// Mean level way of a walker in a tick, of what it wished for: shows that they do walk.
+    pub progress: f64,
+    /// Characters below the lowest ground in the end.
+    pub lost: usize,
+}
+
+/// Runs and prints.
+pub fn run(options: &Options) -> Result<(), String> {
+    let measured = measure(options)?;
+    if options.json {
+        let line = serde_json::to_string(&measured).map_err(|error| error.to_string())?;
+        println!("{line}");
+        return Ok(());
+    }
+    let mean = |of: &[u64]| of.iter().sum::<u64>() as f64 / of.len().max(1) as f64 * 1e-3;
+    let work = mean(&measured.work);
+    println!(
+        "profile {} side={} threads={} n={} steps={} us={:.3} work={:.1}us update={:.1}us allocations={} \
+         progress={:.2} lost={} hash={:016x}",
+        options.scene,
+        options.only.name(),
+        options.threads,
+        options.characters,
+        options.steps,
+        work / f64::from(options.characters.max(1)),
+        work,
+        mean(&measured.whole),
+        measured.allocations.iter().sum::<u64>(),
+        measured.progress,
+        measured.lost,
+        measured.hash,
+    );
+    Ok(())
+}
+
+/// Builds the world and runs it.
+pub fn measure(options: &Options) -> Result<Measured, String> {
+    let scene = scene::find(&options.scene)?;
+    if options.threads == 0 {
+        return Err("there must be at least one thread".into());
+    }
+    create_pools(options.threads);
+    let mut sim = Sim::with(60.0, (EmbodyCorePlugin, SidePlugin(options.only)));
+    (scene.build)(&mut sim, options.only, options.characters);
+    if options.threads == 1 {
+        run_alone(&mut sim.app);
+    }
+    sim.ticks(options.warm_up.unwrap_or(scene.warm_up));
+    let mut measured = Measured {
+        work: Vec::with_capacity(options.steps),
+        whole: Vec::with_capacity(options.steps),
+        allocations: Vec::with_capacity(options.steps),
+        hash: 0,
+        progress: 0.0,
+        lost: 0,
+    };
+    let mut way = Way::default();
+    sim.app.world_mut().resource_mut::<Probe>().take();
+    for _ in 0..options.steps {
+        let start = Instant::now();
+        sim.ticks(1);
+        measured.whole.push(start.elapsed().as_nanos() as u64);
+        let (work, allocations) = sim.app.world_mut().resource_mut::<Probe>().take();
+        measured.work.push(work.as_nanos() as u64);
+        measured.allocations.push(allocations);
+        way.follow(sim.app.world_mut());
+    }
+    measured.hash = hash(sim.app.world_mut());
+    measured.progress = way.went / way.wished;
+    measured.lost = way.lost();
+    Ok(measured)
+}
+
+/// Makes the task pools of this process before Bevy does.
+fn create_pools(threads: usize) {
+    let mut options = TaskPoolOptions::default();
+    options.compute.min_threads = threads;
+    options.compute.max_threads = threads;
+    options.create_default_pools();
+}
+
+/// Runs the systems of every schedule one after another on the calling thread.
+fn run_alone(app: &mut App) {
+    let mut schedules = app.world_mut().resource_mut::<Schedules>();
+    for (_, schedule) in schedules.iter_mut() {
+        schedule.set_executor(SingleThreadedExecutor::new());
+    }
+}
+
+/// How far walkers got.
+#[derive(Default)]
+struct Way {
+    last: BTreeMap<StableId, Vec3>,
+    went: f64,
+    wished: f64,
+}
+
+impl Way {
+    fn follow(&mut self, world: &mut World) {
+        let mut walkers = world.query::<(&StableId, &Walker, &Transform)>();
+        for (id, walker, transform) in walkers.iter(world) {
+            let at = transform.translation;
+            if let Some(last) = self.last.insert(*id, at) {
+                self.went += f64::from((at - last).with_y(0.0).length());
+                self.wished += f64::from(walker.wish.length() / 60.0);
+            }
+        }
+    }
+
+    fn lost(&self) -> usize {
+        self.last.values().filter(|at| at.y < LOWEST - 1.0).count()
+    }
+}
+
+/// Bits of the poses of everything with a number, in the order of the numbers.
+fn hash(world: &mut World) -> u64 {
+    let mut poses: Vec<(StableId, Transform)> = world
+        .query::<(&StableId, &Transform)>()
+        .iter(world)
+        .map(|(id, transform)| (*id, *transform))
+        .collect();
+    poses.sort_unstable_by_key(|(id, _)| *id);
+    let bits = poses.iter().flat_map(|(id, transform)| {
+        let (p, q) = (transform.translation, transform.rotation);
+        let floats = [p.x, p.y, p.z, q.x, q.y, q.z, q.w];
+        [id.0].into_iter().chain(floats.map(f32::to_bits))
+    });
+    // FNV-1a.
+    bits.flat_map(u32::to_le_bytes)
+        .fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
+        })
+}

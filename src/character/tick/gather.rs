@@ -1,0 +1,85 @@
+//! What to look at in a tick, and the share of the gaps between characters.
+
+use bevy::prelude::*;
+
+use super::Tick;
+use crate::{
+    backend::neighbourhood::{Mover, MoverPose, ObstacleKind, Request},
+    character::solver::Scratch,
+};
+
+impl Tick<'_, '_, '_, '_> {
+    pub(super) fn gather(
+        &self,
+        scratch: &mut Scratch,
+        mover: &Mover,
+        pose: MoverPose,
+        displacement: Vec3,
+        growth: f32,
+        wide: bool,
+    ) {
+        let up = pose.up;
+        let step = self.config.step.map_or(0.0, |step| step.height);
+        let min_width = self.config.step.map_or(0.0, |step| step.min_width);
+        let below = if self.state.on_ground() { self.config.ground_snap } else { 0.0 };
+        let above = growth + if wide { step + 0.05 } else { 0.0 };
+        let margin = 0.05 + if wide { mover.width + min_width } else { 0.0 };
+        let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
+        let foot = pose.position - up * below;
+        let head = pose.position + up * (2.0 * mover.middle + above);
+        for p in [foot, head, foot + displacement, head + displacement] {
+            low = low.min(p);
+            high = high.max(p);
+        }
+        let grow = Vec3::splat(mover.width + margin) * (Vec3::ONE - up.abs() * 0.9)
+            + up.abs() * 0.05;
+        let request = Request {
+            mover,
+            pose,
+            origin: self.start.position,
+            low: low - grow,
+            high: high + grow,
+            reach: displacement.length() + below.max(above) + margin,
+            probe: pose.position + up * mover.middle,
+        };
+        let around = self.around;
+        around.view.gather(
+            &request,
+            around.groups,
+            around.dt,
+            |collider, body| around.judge(collider, body),
+            &mut scratch.near,
+        );
+        let near = &mut scratch.near;
+        // The order of the search tree depends on what else there is; geometry does not.
+        near.pieces.sort_unstable_by(|a, b| {
+            a.clearance
+                .total_cmp(&b.clearance)
+                .then(a.normal.x.total_cmp(&b.normal.x))
+                .then(a.normal.y.total_cmp(&b.normal.y))
+                .then(a.normal.z.total_cmp(&b.normal.z))
+                .then(a.part.cmp(&b.part))
+        });
+        self.share_gaps(scratch, displacement);
+    }
+
+    /// Two characters that close on each other each get their share of the gap between them.
+    fn share_gaps(&self, scratch: &mut Scratch, displacement: Vec3) {
+        let near = &mut scratch.near;
+        for piece in &near.pieces {
+            let obstacle = &mut near.obstacles[piece.obstacle as usize];
+            if obstacle.kind != ObstacleKind::Character {
+                continue;
+            }
+            let Ok(other) = self.around.others.get(obstacle.body) else {
+                continue;
+            };
+            let mine = (-piece.normal.dot(displacement)).max(0.0);
+            let theirs = (piece.normal.dot(other.velocity) * self.around.dt).max(0.0);
+            let gap = piece.clearance - obstacle.skin;
+            if mine > 0.0 && theirs > 0.0 && gap > 0.0 {
+                obstacle.skin += gap * theirs / (mine + theirs);
+            }
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! From the solver's answer to state, outputs, events and effects on bodies.
+
+use bevy::{math::ops, prelude::*};
+
+use super::Tick;
+use crate::{
+    backend::{neighbourhood::ObstacleKind, world::WorldPose},
+    character::{
+        config::SlopeSpeed,
+        motor::{along_ground, leave_ground},
+        output::CharacterContact,
+        platform,
+        report::{BodyImpulse, NewHit},
+        solver::{Bend, Solver, Support},
+        state::{Anchor, Ground, GroundMaterial, GroundState},
+    },
+};
+
+impl Tick<'_, '_, '_, '_> {
+    /// Writes the outcome into state, outputs and report.
+    pub(super) fn finish(
+        &mut self,
+        solver: &mut Solver,
+        p: Vec3,
+        rotation: Quat,
+        support: Support,
+        climbed: Option<(f32, f32)>,
+        snapped: f32,
+    ) {
+        let dt = self.around.dt;
+        let up = self.state.up;
+        let origin = self.start.position;
+        let before = self.state.velocity;
+        let was_on_ground = self.state.on_ground();
+
+        // What single precision cannot hold of the position is kept beside it.
+        let exact = origin.as_dvec3() + p.as_dvec3();
+        let position = exact.as_vec3();
+        self.state.residual = (exact - position.as_dvec3()).as_vec3();
+        self.state.last_position = position;
+        self.state.last_rotation = rotation;
+        self.report.target = Some(WorldPose { position, rotation });
+
+        let mut velocity = solver.velocity;
+        if self.carry.turn != 0.0 && was_on_ground && self.config.turn_with_platform {
+            velocity = Quat::from_axis_angle(up, self.carry.turn) * velocity;
+        }
+        let carried = self.carry.displacement / dt;
+        let ground = self.ground(solver, &support, origin);
+        let on_ground = support.state == GroundState::OnGround;
+        self.state.velocity = velocity;
+        if on_ground {
+            let same = was_on_ground && self.state.ground.entity == ground.entity;
+            let platform = if same { carried } else { ground.velocity };
+            if !same {
+                self.state.velocity += if was_on_ground { carried } else { Vec3::ZERO };
+                self.state.velocity -= ground.velocity;
+            }
+            let level = self.state.velocity - up * self.state.velocity.dot(up);
+            let length = if same || was_on_ground {
+                self.state.velocity.length().min(before.length().max(level.length()))
+            } else {
+                level.length()
+            };
+            // Nearly vertical motion has no heading to keep.
+            let level = level.normalize_or_zero()
+                * match self.config.slope_speed {
+                    SlopeSpeed::AlongGround if level.length() > 0.05 * length => length,
+                    _ => level.length(),
+                };
+            self.state.velocity = along_ground(level, ground.normal, up, self.config.slope_speed);
+            self.state.platform_velocity = platform;
+            self.state.anchor = ground.entity.and_then(|entity| {
+                let carrier = self.around.view.carrier(entity, dt)?;
+                Some(Anchor {
+                    entity,
+                    position: carrier.end.position,
+                    rotation: carrier.end.rotation,
+                })
+            });
+        } else if was_on_ground {
+            self.state.platform_velocity = carried;
+            leave_ground(self.config, self.state);
+        }
+        if self.report.was == GroundState::OnGround && !on_ground {
+            self.report.happened.left = true;
+        }
+        if self.report.was != GroundState::OnGround
+            && on_ground
+            && let Some(entity) = ground.entity
+        {
+            let speed = (ground.velocity - before).dot(ground.normal).max(0.0);
+            self.report.happened.landed = Some((entity, speed, self.state.air_time));
+        }
+        self.state.air_time = if on_ground { 0.0 } else { self.state.air_time + dt };
+        if on_ground {
+            self.state.jumping = false;
+        }
+        self.state.ground = ground;
+        self.state.volume = solver.near.volumes.iter().copied().min();
+
+        self.note_step(solver, climbed, snapped);
+        self.weigh(solver, &support, was_on_ground, origin);
+        self.note_contacts(solver, origin);
+    }
+
+    /// The ground as the state tells it.
+    fn ground(&self, solver: &Solver, support: &Support, origin: Vec3) -> Ground {
+        let Some(index) = support.obstacle else {
+            return Ground {
+                state: support.state,
+                normal: self.state.up,
+                point: origin + support.point,
+                ..default()
+            };
+        };
+        let obstacle = &solver.near.obstacles[index as usize];
+        let point = origin + support.point;
+        let surface = self.around.surface_velocity(obstacle.entity);
+        let conveyor = platform::surface_velocity_at(
+            &surface,
+            self.around.view.carrier(obstacle.entity, self.around.dt).map(|c| c.end),
+            point,
+        );
+        let grip = self
+            .around
+            .surfaces
+            .get(obstacle.entity)
+            .ok()
+            .and_then(|(_, grip)| grip.map(|grip| grip.0));
+        Ground {
+            state: support.state,
+            entity: Some(obstacle.entity),
+            normal: support.normal,
+            point,
+            velocity: support_velocity(solver, support, self.around.dt) + conveyor,
+            material: GroundMaterial {
+                friction: obstacle.friction,
+                restitution: obstacle.restitution,
+                grip: grip.filter(|grip| grip.is_finite()).unwrap_or(1.0),
+            },
+        }
+    }
+
+    fn note_step(
+        &mut self,
+        solver: &Solver,
+        climbed: Option<(f32, f32)>,
+        snapped: f32,
+    ) {
+        let up = self.state.up;
+        self.contacts.step = solver.step;
+        self.contacts.snapped = snapped;
+        self.contacts.queries = solver.near.queries;
+        if let Some((_, height)) = climbed
+            && !self.state.stepping
+        {
+            self.report.happened.stepped = Some(height);
+        }
+        self.state.stepping = climbed.is_some();
+        let time = self.config.step_smoothing;
+        if time > 0.0 {
+            let rise = climbed.map_or(0.0, |(rise, _)| rise) - if snapped > 5.0e-3 { snapped } else { 0.0 };
+            let fade = ops::exp(-self.around.dt / time);
+            let offset = self.state.view_offset * fade - up * rise;
+            self.state.view_offset = if offset.length_squared() > 1.0e-8 { offset } else { Vec3::ZERO };
+        } else {
+            self.state.view_offset = Vec3::ZERO;
+        }
+    }
+
+    /// Collects the impulses for bodies: pushes, and the weight on what carries.
+    fn weigh(&mut self, solver: &Solver, support: &Support, was_on_ground: bool, origin: Vec3) {
+        self.report.impulses.clear();
+        for i in solver.impulses.iter() {
+            self.report.impulses.push(BodyImpulse {
+                body: i.body,
+                impulse: i.impulse,
+                point: origin + i.point,
+                wake: true,
+            });
+        }
+        if !self.config.weighs_on_ground || support.state != GroundState::OnGround {
+            return;
+        }
+        let Some(index) = support.obstacle else { return };
+        let obstacle = &solver.near.obstacles[index as usize];
+        if obstacle.dynamics.is_none() || obstacle.kind != ObstacleKind::Dynamic {
+            return;
+        }
+        let gravity = self.motor.gravity.unwrap_or(self.around.view.gravity.length())
+            * self.motor.gravity_scale;
+        self.report.impulses.push(BodyImpulse {
+            body: obstacle.body,
+            impulse: -self.state.up * (self.config.mass * gravity * self.around.dt),
+            point: origin + support.point,
+            wake: !was_on_ground || self.report.woken,
+        });
+    }
+
+    fn note_contacts(&mut self, solver: &mut Solver, origin: Vec3) {
+        let contacts = &mut self.contacts.contacts;
+        contacts.clear();
+        core::mem::swap(&mut self.report.touching, &mut self.report.touched);
+        self.report.touching.clear();
+        for b in solver.blockers.iter() {
+            let obstacle = &solver.near.obstacles[b.obstacle as usize];
+            let impulse = solver
+                .impulses
+                .iter()
+                .filter(|i| i.obstacle == b.obstacle)
+                .map(|i| i.impulse)
+                .sum();
+            contacts.push(CharacterContact {
+                entity: obstacle.entity,
+                point: origin + b.point,
+                normal: b.normal,
+                distance: b.distance,
+                impulse,
+                blocked: true,
+            });
+            if b.bend == Bend::Ground {
+                continue;
+            }
+            if !self.report.touching.contains(&obstacle.entity) {
+                self.report.touching.push(obstacle.entity);
+            }
+            if !self.report.touched.contains(&obstacle.entity)
+                && !self.report.hits.iter().any(|hit| hit.other == obstacle.entity)
+            {
+                self.report.hits.push(NewHit {
+                    other: obstacle.entity,
+                    point: origin + b.point,
+                    normal: b.normal,
+                    speed: b.speed,
+                    impulse,
+                });
+            }
+        }
+        for touch in solver.touches_now() {
+            let entity = solver.near.obstacles[touch.obstacle as usize].entity;
+            let known = contacts
+                .iter()
+                .any(|c| c.entity == entity && c.normal.dot(touch.normal) > 0.999);
+            if !known {
+                contacts.push(CharacterContact {
+                    entity,
+                    point: origin + touch.point,
+                    normal: touch.normal,
+                    distance: touch.distance,
+                    impulse: Vec3::ZERO,
+                    blocked: false,
+                });
+            }
+        }
+    }
+}
+
+/// Velocity of the ground at the point of support, without conveyors.
+pub(super) fn support_velocity(solver: &Solver, support: &Support, dt: f32) -> Vec3 {
+    support.obstacle.map_or(Vec3::ZERO, |index| {
+        solver.near.obstacles[index as usize]
+            .motion
+            .velocity(support.point, 1.0)
+            / dt
+    })
+}
