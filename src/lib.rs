@@ -3,6 +3,10 @@
 #![warn(clippy::disallowed_methods)]
 
 mod backend;
+#[cfg(all(feature = "character", any(feature = "debug", feature = "egui")))]
+pub mod debug;
+#[cfg(feature = "character")]
+mod diagnostics;
 pub mod interpolation;
 mod math;
 mod schedule;
@@ -14,6 +18,12 @@ pub mod character;
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
 pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
+#[cfg(all(feature = "character", feature = "debug"))]
+pub use debug::EmbodyDebugPlugin;
+#[cfg(all(feature = "character", feature = "egui"))]
+pub use debug::EmbodyInspectorPlugin;
+#[cfg(feature = "character")]
+pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
 pub use teleport::Teleported;
 

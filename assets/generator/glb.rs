@@ -27,12 +27,7 @@ struct Buffer {
 
 impl Buffer {
     /// Adds an array of its own view and returns its accessor.
-    fn add(
-        &mut self,
-        bytes: &[u8],
-        target: u32,
-        mut accessor: Value,
-    ) -> usize {
+    fn add(&mut self, bytes: &[u8], target: u32, mut accessor: Value) -> usize {
         while !self.bytes.len().is_multiple_of(4) {
             self.bytes.push(0);
         }
@@ -51,7 +46,7 @@ impl Buffer {
     fn vectors(&mut self, vectors: &[Vec3], bounds: bool) -> usize {
         let bytes: Vec<u8> = vectors
             .iter()
-            .flat_map(|v| v.to_array())
+            .flat_map(Vec3::to_array)
             .flat_map(f32::to_le_bytes)
             .collect();
         let mut accessor =

@@ -14,7 +14,11 @@ use std::{path::Path, process::ExitCode};
 
 use level::Level;
 
-#[expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
+#[expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command line tool"
+)]
 fn main() -> ExitCode {
     let check = std::env::args().any(|argument| argument == "--check");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/course.glb");
@@ -51,7 +55,11 @@ fn main() -> ExitCode {
         "{}: {} nodes, {} triangles, {} bytes",
         path.display(),
         level.nodes.len(),
-        level.nodes.iter().map(|node| node.mesh.triangles()).sum::<usize>(),
+        level
+            .nodes
+            .iter()
+            .map(|node| node.mesh.triangles())
+            .sum::<usize>(),
         bytes.len()
     );
     ExitCode::SUCCESS

@@ -36,6 +36,10 @@ impl Default for Mesh {
 
 /// Sine and cosine of an angle in degrees, exact at right angles; from double precision, so that
 /// rounding gives the same bits on every machine.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "rounded to single precision right away"
+)]
 pub fn sin_cos(degrees: f64) -> (f32, f32) {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let clean = |v: f64| if v.abs() < 1e-12 { 0.0 } else { v as f32 };
@@ -223,29 +227,59 @@ impl Mesh {
             let j = i + 1;
             self.polygon(
                 top,
-                &[at(i, inner, high), at(i, outer, high), at(j, outer, high), at(j, inner, high)],
+                &[
+                    at(i, inner, high),
+                    at(i, outer, high),
+                    at(j, outer, high),
+                    at(j, inner, high),
+                ],
             );
             self.polygon(
                 side,
-                &[at(j, inner, low), at(j, outer, low), at(i, outer, low), at(i, inner, low)],
+                &[
+                    at(j, inner, low),
+                    at(j, outer, low),
+                    at(i, outer, low),
+                    at(i, inner, low),
+                ],
             );
             self.polygon(
                 side,
-                &[at(i, outer, low), at(j, outer, low), at(j, outer, high), at(i, outer, high)],
+                &[
+                    at(i, outer, low),
+                    at(j, outer, low),
+                    at(j, outer, high),
+                    at(i, outer, high),
+                ],
             );
             self.polygon(
                 side,
-                &[at(j, inner, low), at(i, inner, low), at(i, inner, high), at(j, inner, high)],
+                &[
+                    at(j, inner, low),
+                    at(i, inner, low),
+                    at(i, inner, high),
+                    at(j, inner, high),
+                ],
             );
         }
         self.polygon(
             side,
-            &[at(0, inner, low), at(0, outer, low), at(0, outer, high), at(0, inner, high)],
+            &[
+                at(0, inner, low),
+                at(0, outer, low),
+                at(0, outer, high),
+                at(0, inner, high),
+            ],
         );
         let n = pieces;
         self.polygon(
             side,
-            &[at(n, outer, low), at(n, inner, low), at(n, inner, high), at(n, outer, high)],
+            &[
+                at(n, outer, low),
+                at(n, inner, low),
+                at(n, inner, high),
+                at(n, outer, high),
+            ],
         )
     }
 }

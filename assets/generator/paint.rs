@@ -81,6 +81,10 @@ impl Paint {
     }
 
     /// Linear RGBA as glTF wants it.
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "rounded to three digits right away"
+    )]
     pub fn linear(self) -> [f32; 4] {
         let channel = |shift: u32| {
             let value = f64::from((self.screen() >> shift) & 0xff) / 255.0;

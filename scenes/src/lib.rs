@@ -1,8 +1,12 @@
 //! Scenes, harness and example shell shared by the tests, examples and lab of `bevy_embody`.
 
+pub mod builders;
 pub mod course;
 pub mod harness;
+#[cfg(feature = "window")]
+pub mod shell;
 pub mod stations;
 pub mod wavy;
 
+pub use builders::{FloorKind, Make, Mover, Patch, StairCeiling, Stairs};
 pub use harness::Sim;

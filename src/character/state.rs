@@ -52,6 +52,8 @@ pub struct CharacterState {
     /// The water or ladder that it is in.
     #[entities]
     pub volume: Option<Entity>,
+    /// Whether it was inside something in the last tick.
+    pub overlapping: bool,
     /// Whether the last tick left it pinned between two things that close on it.
     pub crushed: bool,
     /// What a camera adds to the position to see steps as ramps, world axes, metres.
@@ -81,6 +83,7 @@ impl Default for CharacterState {
             jumping: false,
             stepping: false,
             volume: None,
+            overlapping: false,
             crushed: false,
             view_offset: Vec3::ZERO,
             last_position: Vec3::NAN,

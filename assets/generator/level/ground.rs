@@ -81,14 +81,19 @@ fn slab(level: &mut Level, name: &str, min: Vec2, max: Vec2) {
             let avenue = (-2..2).contains(&i);
             mesh.tint(match ((i + k).rem_euclid(2) == 0, avenue) {
                 (true, true) => 255,
-                (false, true) => 236,
-                (true, false) => 205,
-                (false, false) => 190,
+                (false, true) => 215,
+                (true, false) => 195,
+                (false, false) => 158,
             });
             let at = |x: f32, z: f32| Vec3::new(x - middle.x, 0.5, z - middle.z);
             mesh.polygon(
                 Paint::Plaza,
-                &[at(x[0], z[1]), at(x[1], z[1]), at(x[1], z[0]), at(x[0], z[0])],
+                &[
+                    at(x[0], z[1]),
+                    at(x[1], z[1]),
+                    at(x[1], z[0]),
+                    at(x[0], z[0]),
+                ],
             );
         }
     }
@@ -104,7 +109,11 @@ fn border(level: &mut Level) {
         ("border.west", Vec3::new(-w + 0.5 * thick, 0.0, 0.0), along),
         ("border.east", Vec3::new(w - 0.5 * thick, 0.0, 0.0), along),
         ("border.south", Vec3::new(0.0, 0.0, l - 0.5 * thick), across),
-        ("border.north", Vec3::new(0.0, 0.0, -l + 0.5 * thick), across),
+        (
+            "border.north",
+            Vec3::new(0.0, 0.0, -l + 0.5 * thick),
+            across,
+        ),
     ] {
         level.standing(name, &WORLD, foot, size, Paint::Stone);
     }
@@ -113,11 +122,29 @@ fn border(level: &mut Level) {
 /// A tree of two cones.
 pub fn tree(size: f32) -> Mesh {
     let mut mesh = Mesh::default();
-    mesh.round(Paint::Wood, Vec3::ZERO, [0.16 * size, 0.12 * size], 1.1 * size, 8)
-        .tint(225)
-        .round(Paint::Leaf, Vec3::Y * (0.8 * size), [0.95 * size, 0.25 * size], 1.5 * size, 9)
-        .tint(255)
-        .round(Paint::Leaf, Vec3::Y * (1.7 * size), [0.75 * size, 0.0], 1.7 * size, 9);
+    mesh.round(
+        Paint::Wood,
+        Vec3::ZERO,
+        [0.16 * size, 0.12 * size],
+        1.1 * size,
+        8,
+    )
+    .tint(225)
+    .round(
+        Paint::Leaf,
+        Vec3::Y * (0.8 * size),
+        [0.95 * size, 0.25 * size],
+        1.5 * size,
+        9,
+    )
+    .tint(255)
+    .round(
+        Paint::Leaf,
+        Vec3::Y * (1.7 * size),
+        [0.75 * size, 0.0],
+        1.7 * size,
+        9,
+    );
     mesh
 }
 

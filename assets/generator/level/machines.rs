@@ -42,7 +42,12 @@ fn build_lift(level: &mut Level, lift: &Lift) {
         let (x0, x1, z0, z1) = (x - 0.5 * sx, x + 0.5 * sx, z - 0.5 * sz, z + 0.5 * sz);
         mesh.polygon(
             Paint::Ink,
-            &[Vec3::new(x0, y, z1), Vec3::new(x1, y, z1), Vec3::new(x1, y, z0), Vec3::new(x0, y, z0)],
+            &[
+                Vec3::new(x0, y, z1),
+                Vec3::new(x1, y, z1),
+                Vec3::new(x1, y, z0),
+                Vec3::new(x0, y, z0),
+            ],
         );
     }
     let center = LIFT_TOP - Vec3::Y * (0.5 * LIFT_THICK);
@@ -95,7 +100,14 @@ fn build_table(level: &mut Level, table: &Turntable) {
         .round(Paint::Amber, low, [table.radius; 2], TABLE_TOP - 0.002, 48);
     for i in 0..pieces {
         let angle = 360.0 / pieces as f32;
-        mesh.tint(if i == 0 { 120 } else if i % 2 == 0 { 255 } else { 215 }).sector(
+        mesh.tint(if i == 0 {
+            120
+        } else if i % 2 == 0 {
+            255
+        } else {
+            215
+        })
+        .sector(
             [Paint::Amber; 2],
             Vec3::ZERO,
             [0.3, table.radius],
@@ -184,10 +196,36 @@ fn board(level: &mut Level) {
     let at = Vec3::new;
     let foot = -seesaw::HINGE.y;
     stand
-        .polygon(Paint::Slate, &[at(-w, foot, 0.35), at(w, foot, 0.35), at(w, foot + h, 0.0), at(-w, foot + h, 0.0)])
-        .polygon(Paint::Slate, &[at(w, foot, -0.35), at(-w, foot, -0.35), at(-w, foot + h, 0.0), at(w, foot + h, 0.0)])
-        .triangle(Paint::Slate, [at(w, foot, 0.35), at(w, foot, -0.35), at(w, foot + h, 0.0)])
-        .triangle(Paint::Slate, [at(-w, foot, -0.35), at(-w, foot, 0.35), at(-w, foot + h, 0.0)]);
+        .polygon(
+            Paint::Slate,
+            &[
+                at(-w, foot, 0.35),
+                at(w, foot, 0.35),
+                at(w, foot + h, 0.0),
+                at(-w, foot + h, 0.0),
+            ],
+        )
+        .polygon(
+            Paint::Slate,
+            &[
+                at(w, foot, -0.35),
+                at(-w, foot, -0.35),
+                at(-w, foot + h, 0.0),
+                at(w, foot + h, 0.0),
+            ],
+        )
+        .triangle(
+            Paint::Slate,
+            [at(w, foot, 0.35), at(w, foot, -0.35), at(w, foot + h, 0.0)],
+        )
+        .triangle(
+            Paint::Slate,
+            [
+                at(-w, foot, -0.35),
+                at(-w, foot, 0.35),
+                at(-w, foot + h, 0.0),
+            ],
+        );
     level.add(
         "seesaw.stand",
         place,
@@ -251,7 +289,8 @@ fn build_crate(level: &mut Level, item: &layout::Crate) {
         m if m < 500.0 => Paint::Wood,
         _ => Paint::Metal,
     };
-    mesh.tint(215).cuboid(paint, Vec3::ZERO, Vec3::splat(s * 0.98));
+    mesh.tint(215)
+        .cuboid(paint, Vec3::ZERO, Vec3::splat(s * 0.98));
     // Battens along the edges, flush with the collider.
     let (edge, b) = (0.5 * s - 0.04 * s, 0.08 * s);
     mesh.tint(255);

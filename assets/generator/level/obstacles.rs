@@ -55,7 +55,11 @@ fn box_corner(level: &mut Level, corner: &Corner) {
         let mut mesh = Mesh::default();
         mesh.cuboid(Paint::Indigo, Vec3::ZERO, size);
         level.add(
-            format!("{}.wall_{}", corner.name, if side > 0.0 { "right" } else { "left" }),
+            format!(
+                "{}.wall_{}",
+                corner.name,
+                if side > 0.0 { "right" } else { "left" }
+            ),
             &corner.place,
             middle,
             mesh,
@@ -72,9 +76,7 @@ fn box_corner(level: &mut Level, corner: &Corner) {
 fn mesh_corner(level: &mut Level, corner: &Corner) {
     let (sin, cos) = sin_cos(0.5 * f64::from(corner.degrees));
     let top = CORNER_WALL.y;
-    let end = |side: f32, y: f32| {
-        Vec3::new(side * sin * CORNER_WALL.x, y, cos * CORNER_WALL.x)
-    };
+    let end = |side: f32, y: f32| Vec3::new(side * sin * CORNER_WALL.x, y, cos * CORNER_WALL.x);
     // The back is parallel to the faces, one thickness behind.
     let back = |y: f32| Vec3::new(0.0, y, -WALL / sin);
     let behind = |side: f32, y: f32| end(side, y) + Vec3::new(side * cos, 0.0, -sin) * WALL;
@@ -82,14 +84,50 @@ fn mesh_corner(level: &mut Level, corner: &Corner) {
     let mut mesh = Mesh::default();
     let paint = Paint::Indigo;
     mesh.polygon(paint, &[apex(0.0), end(1.0, 0.0), end(1.0, top), apex(top)])
-        .polygon(paint, &[end(-1.0, 0.0), apex(0.0), apex(top), end(-1.0, top)])
-        .polygon(paint, &[end(1.0, 0.0), behind(1.0, 0.0), behind(1.0, top), end(1.0, top)])
-        .polygon(paint, &[behind(-1.0, 0.0), end(-1.0, 0.0), end(-1.0, top), behind(-1.0, top)])
-        .polygon(paint, &[behind(1.0, 0.0), back(0.0), back(top), behind(1.0, top)])
-        .polygon(paint, &[back(0.0), behind(-1.0, 0.0), behind(-1.0, top), back(top)])
-        .polygon(paint, &[apex(top), end(1.0, top), behind(1.0, top), back(top)])
-        .polygon(paint, &[end(-1.0, top), apex(top), back(top), behind(-1.0, top)]);
-    level.solid_mesh(format!("{}.walls", corner.name), &corner.place, CORNER_APEX, mesh);
+        .polygon(
+            paint,
+            &[end(-1.0, 0.0), apex(0.0), apex(top), end(-1.0, top)],
+        )
+        .polygon(
+            paint,
+            &[
+                end(1.0, 0.0),
+                behind(1.0, 0.0),
+                behind(1.0, top),
+                end(1.0, top),
+            ],
+        )
+        .polygon(
+            paint,
+            &[
+                behind(-1.0, 0.0),
+                end(-1.0, 0.0),
+                end(-1.0, top),
+                behind(-1.0, top),
+            ],
+        )
+        .polygon(
+            paint,
+            &[behind(1.0, 0.0), back(0.0), back(top), behind(1.0, top)],
+        )
+        .polygon(
+            paint,
+            &[back(0.0), behind(-1.0, 0.0), behind(-1.0, top), back(top)],
+        )
+        .polygon(
+            paint,
+            &[apex(top), end(1.0, top), behind(1.0, top), back(top)],
+        )
+        .polygon(
+            paint,
+            &[end(-1.0, top), apex(top), back(top), behind(-1.0, top)],
+        );
+    level.solid_mesh(
+        format!("{}.walls", corner.name),
+        &corner.place,
+        CORNER_APEX,
+        mesh,
+    );
 }
 
 fn wood(level: &mut Level) {
@@ -97,8 +135,13 @@ fn wood(level: &mut Level) {
         let (radius, height) = (pillars::RADIUS, pillars::HEIGHT);
         let mut mesh = Mesh::default();
         let middle = Vec3::Y * (0.5 * height);
-        mesh.tint(if i % 2 == 0 { 255 } else { 225 })
-            .round(Paint::Sand, -middle, [radius; 2], height, 28);
+        mesh.tint(if i % 2 == 0 { 255 } else { 225 }).round(
+            Paint::Sand,
+            -middle,
+            [radius; 2],
+            height,
+            28,
+        );
         level.add(
             format!("pillars.{i}"),
             &pillars::PLACE,
@@ -169,7 +212,11 @@ fn tower(level: &mut Level) {
     let count = 13;
     for i in 0..count {
         let y = ladder::LEDGE * (i as f32 + 0.5) / count as f32;
-        rungs.cuboid(Paint::Wood, Vec3::new(0.0, y, 0.05), Vec3::new(ladder::WIDTH, 0.05, 0.05));
+        rungs.cuboid(
+            Paint::Wood,
+            Vec3::new(0.0, y, 0.05),
+            Vec3::new(ladder::WIDTH, 0.05, 0.05),
+        );
     }
     level.decor(
         "ladder.rungs",

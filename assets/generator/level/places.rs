@@ -9,7 +9,10 @@ use embody_scenes::course::{
 };
 
 use super::{Level, boxed, ground, signs::Sign, solid};
-use crate::{mesh::Mesh, paint::Paint};
+use crate::{
+    mesh::{Mesh, sin_cos},
+    paint::Paint,
+};
 
 pub fn build(level: &mut Level) {
     hill(level);
@@ -22,7 +25,13 @@ fn hill(level: &mut Level) {
     let c = voxels::CUBE;
     let mut columns = Vec::new();
     let mut mesh = Mesh::default();
-    let paint = |level: i32| if level >= voxels::HEIGHT { Paint::White } else { Paint::Leaf };
+    let paint = |level: i32| {
+        if level >= voxels::HEIGHT {
+            Paint::White
+        } else {
+            Paint::Leaf
+        }
+    };
     for x in -r..r {
         for z in -r..r {
             let height = voxels::column(x, z);
@@ -34,7 +43,12 @@ fn hill(level: &mut Level) {
             let shade = |y: i32, odd: i32| (150 + 10 * y - 14 * (odd & 1)).clamp(0, 255) as u8;
             mesh.tint(shade(height, x + z)).polygon(
                 paint(height),
-                &[at(x, z + 1, height), at(x + 1, z + 1, height), at(x + 1, z, height), at(x, z, height)],
+                &[
+                    at(x, z + 1, height),
+                    at(x + 1, z + 1, height),
+                    at(x + 1, z, height),
+                    at(x, z, height),
+                ],
             );
             for (dx, dz, a, b) in [
                 (0, 1, (0, 1), (1, 1)),
@@ -90,8 +104,24 @@ fn basin(level: &mut Level) {
     floor(&mut mesh, (z[1], d), (z[2], d));
     floor(&mut mesh, (z[2], d), (z[3], 0.0));
     mesh.tint(200)
-        .polygon(Paint::White, &[at(-w, 0.0, z[0]), at(-w, d, z[1]), at(-w, d, z[2]), at(-w, 0.0, z[3])])
-        .polygon(Paint::White, &[at(w, 0.0, z[3]), at(w, d, z[2]), at(w, d, z[1]), at(w, 0.0, z[0])]);
+        .polygon(
+            Paint::White,
+            &[
+                at(-w, 0.0, z[0]),
+                at(-w, d, z[1]),
+                at(-w, d, z[2]),
+                at(-w, 0.0, z[3]),
+            ],
+        )
+        .polygon(
+            Paint::White,
+            &[
+                at(w, 0.0, z[3]),
+                at(w, d, z[2]),
+                at(w, d, z[1]),
+                at(w, 0.0, z[0]),
+            ],
+        );
     level.solid_mesh("pool.basin", &pool::PLACE, Vec3::ZERO, mesh);
 
     let size = Vec3::new(pool::WIDTH, pool::DEPTH - pool::WATER, pool::LENGTH);
@@ -99,7 +129,15 @@ fn basin(level: &mut Level) {
     let y = 0.5 * size.y;
     // The surface ends where it meets the ramps.
     let end = 0.5 * size.z - pool::RAMP * pool::WATER / pool::DEPTH;
-    water.polygon(Paint::Water, &[at(-w, y, end), at(w, y, end), at(w, y, -end), at(-w, y, -end)]);
+    water.polygon(
+        Paint::Water,
+        &[
+            at(-w, y, end),
+            at(w, y, end),
+            at(w, y, -end),
+            at(-w, y, -end),
+        ],
+    );
     level.add(
         "pool.water",
         &pool::PLACE,
@@ -125,17 +163,42 @@ fn basin(level: &mut Level) {
 fn sphere(cuts: usize) -> (Vec<Vec3>, Vec<[usize; 3]>) {
     let g = (1.0 + 5.0f32.sqrt()) / 2.0;
     let mut points: Vec<Vec3> = [
-        (-1.0, g, 0.0), (1.0, g, 0.0), (-1.0, -g, 0.0), (1.0, -g, 0.0),
-        (0.0, -1.0, g), (0.0, 1.0, g), (0.0, -1.0, -g), (0.0, 1.0, -g),
-        (g, 0.0, -1.0), (g, 0.0, 1.0), (-g, 0.0, -1.0), (-g, 0.0, 1.0),
+        (-1.0, g, 0.0),
+        (1.0, g, 0.0),
+        (-1.0, -g, 0.0),
+        (1.0, -g, 0.0),
+        (0.0, -1.0, g),
+        (0.0, 1.0, g),
+        (0.0, -1.0, -g),
+        (0.0, 1.0, -g),
+        (g, 0.0, -1.0),
+        (g, 0.0, 1.0),
+        (-g, 0.0, -1.0),
+        (-g, 0.0, 1.0),
     ]
     .map(|(x, y, z)| Vec3::new(x, y, z).normalize())
     .to_vec();
     let mut faces: Vec<[usize; 3]> = vec![
-        [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11],
-        [1, 5, 9], [5, 11, 4], [11, 10, 2], [10, 7, 6], [7, 1, 8],
-        [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9],
-        [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
     ];
     for _ in 0..cuts {
         let mut middles = BTreeMap::new();
@@ -163,8 +226,10 @@ fn globe(level: &mut Level) {
         let corners = [a, b, c].map(|i| (points[i] * planet::RADIUS, points[i]));
         let m = (points[a] + points[b] + points[c]) / 3.0;
         // Land and sea from a few waves over the ball.
-        let wave = |x: f32| f64::from(x).sin() as f32;
-        let land = wave(3.1 * m.x + 0.7) + wave(3.7 * m.y + 2.0) + wave(3.3 * m.z + 4.1)
+        let wave = |x: f32| sin_cos(f64::from(x).to_degrees()).0;
+        let land = wave(3.1 * m.x + 0.7)
+            + wave(3.7 * m.y + 2.0)
+            + wave(3.3 * m.z + 4.1)
             + 0.6 * wave(7.0 * m.x - 5.0 * m.z);
         let (paint, tint) = match land {
             l if l > 1.1 => (Paint::Sand, 255),
@@ -219,7 +284,13 @@ fn globe(level: &mut Level) {
                 }),
             ),
         ] {
-            level.add(format!("planet.{name}.{i}"), place, foot + up * height, mesh, extras);
+            level.add(
+                format!("planet.{name}.{i}"),
+                place,
+                foot + up * height,
+                mesh,
+                extras,
+            );
             if let Some(node) = level.nodes.last_mut() {
                 node.transform.rotation *= upright;
             }

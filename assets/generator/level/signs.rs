@@ -64,8 +64,20 @@ impl Level {
                 Vec3::new(BOARD.x, 0.06, BOARD.z),
             );
         let front = 0.08 + 0.5 * BOARD.z + 0.004;
-        text(&mut mesh, sign.paint, sign.kind, Vec3::new(0.0, MIDDLE + 0.19, front), 0.018);
-        text(&mut mesh, Paint::White, sign.title, Vec3::new(0.0, MIDDLE - 0.08, front), 0.034);
+        text(
+            &mut mesh,
+            sign.paint,
+            sign.kind,
+            Vec3::new(0.0, MIDDLE + 0.19, front),
+            0.018,
+        );
+        text(
+            &mut mesh,
+            Paint::White,
+            sign.title,
+            Vec3::new(0.0, MIDDLE - 0.08, front),
+            0.034,
+        );
         let turn = match place.heading {
             Heading::North => 0.0f32,
             Heading::East => 35.0,

@@ -7,7 +7,10 @@ use embody_scenes::course::{
 };
 
 use super::{Level, signs::Sign, solid};
-use crate::{mesh::{Mesh, sin_cos}, paint::Paint};
+use crate::{
+    mesh::{Mesh, sin_cos},
+    paint::Paint,
+};
 
 pub fn build(level: &mut Level) {
     ramps(level);
@@ -24,11 +27,41 @@ fn ramps(level: &mut Level) {
         let at = Vec3::new;
         let mut mesh = Mesh::default();
         mesh.tint(if i % 2 == 0 { 255 } else { 215 })
-            .polygon(Paint::Coral, &[at(-w, 0.0, 0.0), at(w, 0.0, 0.0), at(w, top, -run), at(-w, top, -run)])
-            .triangle(Paint::Coral, [at(w, 0.0, 0.0), at(w, 0.0, -run), at(w, top, -run)])
-            .triangle(Paint::Coral, [at(-w, 0.0, -run), at(-w, 0.0, 0.0), at(-w, top, -run)])
-            .polygon(Paint::Coral, &[at(-w, 0.0, -run), at(-w, top, -run), at(w, top, -run), at(w, 0.0, -run)])
-            .polygon(Paint::Coral, &[at(-w, 0.0, 0.0), at(-w, 0.0, -run), at(w, 0.0, -run), at(w, 0.0, 0.0)]);
+            .polygon(
+                Paint::Coral,
+                &[
+                    at(-w, 0.0, 0.0),
+                    at(w, 0.0, 0.0),
+                    at(w, top, -run),
+                    at(-w, top, -run),
+                ],
+            )
+            .triangle(
+                Paint::Coral,
+                [at(w, 0.0, 0.0), at(w, 0.0, -run), at(w, top, -run)],
+            )
+            .triangle(
+                Paint::Coral,
+                [at(-w, 0.0, -run), at(-w, 0.0, 0.0), at(-w, top, -run)],
+            )
+            .polygon(
+                Paint::Coral,
+                &[
+                    at(-w, 0.0, -run),
+                    at(-w, top, -run),
+                    at(w, top, -run),
+                    at(w, 0.0, -run),
+                ],
+            )
+            .polygon(
+                Paint::Coral,
+                &[
+                    at(-w, 0.0, 0.0),
+                    at(-w, 0.0, -run),
+                    at(w, 0.0, -run),
+                    at(w, 0.0, 0.0),
+                ],
+            );
         // Every other ramp is a mesh, so that both kinds of collider are walked on.
         let collider = if i % 2 == 0 {
             ColliderSpec::Convex
@@ -74,7 +107,12 @@ fn build_funnel(level: &mut Level, funnel: &Funnel) {
     } else {
         pit(&mut mesh, funnel.walls, bottom, top);
     }
-    level.solid_mesh(format!("{}.pit", funnel.name), &funnel.place, Vec3::ZERO, mesh);
+    level.solid_mesh(
+        format!("{}.pit", funnel.name),
+        &funnel.place,
+        Vec3::ZERO,
+        mesh,
+    );
     level.start(&funnel.name, &funnel.place, funnel.start());
     level.sign(
         &funnel.place,
@@ -101,9 +139,33 @@ fn trough(mesh: &mut Mesh, bottom: f32, top: f32) {
             points
         };
         let at = Vec3::new;
-        mesh.polygon(Paint::Indigo, &face([at(0.0, bottom, l), at(rim, top, l), at(rim, top, -l), at(0.0, bottom, -l)]))
-            .polygon(Paint::Stone, &face([at(rim, top, l), at(outer, top, l), at(outer, top, -l), at(rim, top, -l)]))
-            .polygon(Paint::Stone, &face([at(outer, 0.0, l), at(outer, 0.0, -l), at(outer, top, -l), at(outer, top, l)]));
+        mesh.polygon(
+            Paint::Indigo,
+            &face([
+                at(0.0, bottom, l),
+                at(rim, top, l),
+                at(rim, top, -l),
+                at(0.0, bottom, -l),
+            ]),
+        )
+        .polygon(
+            Paint::Stone,
+            &face([
+                at(rim, top, l),
+                at(outer, top, l),
+                at(outer, top, -l),
+                at(rim, top, -l),
+            ]),
+        )
+        .polygon(
+            Paint::Stone,
+            &face([
+                at(outer, 0.0, l),
+                at(outer, 0.0, -l),
+                at(outer, top, -l),
+                at(outer, top, l),
+            ]),
+        );
         for z in [l, -l] {
             let mut end = [
                 at(0.0, 0.0, z),
@@ -126,14 +188,14 @@ fn trough(mesh: &mut Mesh, bottom: f32, top: f32) {
 
 /// A pyramid upside down.
 fn pit(mesh: &mut Mesh, walls: usize, bottom: f32, top: f32) {
-    let corner = |i: usize, apothem: f64, y: f32| {
+    let corner = |i: usize, apothem: f32, y: f32| {
         let half = 180.0 / walls as f64;
-        let radius = (apothem / half.to_radians().cos()) as f32;
+        let radius = apothem / sin_cos(half).1;
         // One wall is square to the heading.
         let (sin, cos) = sin_cos(90.0 + half + 2.0 * half * (i % walls) as f64);
         Vec3::new(radius * cos, y, -radius * sin)
     };
-    let rim = f64::from(layout::FUNNEL_RIM);
+    let rim = layout::FUNNEL_RIM;
     let outer = rim + 0.2;
     for i in 0..walls {
         let j = i + 1;
@@ -145,11 +207,21 @@ fn pit(mesh: &mut Mesh, walls: usize, bottom: f32, top: f32) {
             .tint(255)
             .polygon(
                 Paint::Stone,
-                &[corner(i, outer, top), corner(j, outer, top), corner(j, rim, top), corner(i, rim, top)],
+                &[
+                    corner(i, outer, top),
+                    corner(j, outer, top),
+                    corner(j, rim, top),
+                    corner(i, rim, top),
+                ],
             )
             .polygon(
                 Paint::Stone,
-                &[corner(i, outer, 0.0), corner(j, outer, 0.0), corner(j, outer, top), corner(i, outer, top)],
+                &[
+                    corner(i, outer, 0.0),
+                    corner(j, outer, 0.0),
+                    corner(j, outer, top),
+                    corner(i, outer, top),
+                ],
             );
     }
 }

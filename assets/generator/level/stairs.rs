@@ -60,10 +60,42 @@ fn mesh(level: &mut Level, flight: &Flight) {
         );
         let at = Vec3::new;
         mesh.tint(tint(step))
-            .polygon(Paint::Teal, &[at(-w, low, near), at(w, low, near), at(w, high, near), at(-w, high, near)])
-            .polygon(Paint::Teal, &[at(-w, high, near), at(w, high, near), at(w, high, far), at(-w, high, far)])
-            .polygon(Paint::Teal, &[at(w, 0.0, near), at(w, 0.0, far), at(w, high, far), at(w, high, near)])
-            .polygon(Paint::Teal, &[at(-w, 0.0, far), at(-w, 0.0, near), at(-w, high, near), at(-w, high, far)]);
+            .polygon(
+                Paint::Teal,
+                &[
+                    at(-w, low, near),
+                    at(w, low, near),
+                    at(w, high, near),
+                    at(-w, high, near),
+                ],
+            )
+            .polygon(
+                Paint::Teal,
+                &[
+                    at(-w, high, near),
+                    at(w, high, near),
+                    at(w, high, far),
+                    at(-w, high, far),
+                ],
+            )
+            .polygon(
+                Paint::Teal,
+                &[
+                    at(w, 0.0, near),
+                    at(w, 0.0, far),
+                    at(w, high, far),
+                    at(w, high, near),
+                ],
+            )
+            .polygon(
+                Paint::Teal,
+                &[
+                    at(-w, 0.0, far),
+                    at(-w, 0.0, near),
+                    at(-w, high, near),
+                    at(-w, high, far),
+                ],
+            );
     }
     let (top, back) = (layout::STAIR_TOP, -flight.run());
     mesh.polygon(
@@ -110,7 +142,11 @@ fn spiral_stair(level: &mut Level) {
     for step in 0..spiral::STEPS {
         let from = spiral::STEP_DEGREES * step as f32;
         let last = step + 1 == spiral::STEPS;
-        let to = if last { 360.0 } else { from + spiral::STEP_DEGREES };
+        let to = if last {
+            360.0
+        } else {
+            from + spiral::STEP_DEGREES
+        };
         let high = spiral::RISE * (step + 1) as f32;
         mesh.tint(tint(step)).sector(
             [Paint::Teal; 2],
@@ -124,7 +160,13 @@ fn spiral_stair(level: &mut Level) {
     level.solid_mesh("stairs_spiral.treads", &spiral::PLACE, spiral::CENTER, mesh);
     let height = spiral::RISE * spiral::STEPS as f32 + 1.0;
     let mut column = Mesh::default();
-    column.round(Paint::Stone, Vec3::Y * (-0.5 * height), [spiral::COLUMN; 2], height, 32);
+    column.round(
+        Paint::Stone,
+        Vec3::Y * (-0.5 * height),
+        [spiral::COLUMN; 2],
+        height,
+        32,
+    );
     level.add(
         "stairs_spiral.column",
         &spiral::PLACE,

@@ -105,7 +105,10 @@ mod tests {
             let place = Place::new(3.0, -7.0, heading);
             let local = Vec3::new(1.0, 2.0, 5.0);
             let turned = place.rotation() * local;
-            assert!(turned.distance(place.direction(local)) < 1e-5, "{heading:?}");
+            assert!(
+                turned.distance(place.direction(local)) < 1e-5,
+                "{heading:?}"
+            );
             assert_eq!(place.local_point(place.point(local)), local);
         }
     }

@@ -55,8 +55,10 @@ fn add(
         if primitive.mode() != Mode::Triangles {
             return Err(problem("has a mesh that is not made of triangles"));
         }
-        surfaces
-            .push(surface(&primitive, blob).ok_or_else(|| problem("has a mesh without corners or normals"))?);
+        surfaces.push(
+            surface(&primitive, blob)
+                .ok_or_else(|| problem("has a mesh without corners or normals"))?,
+        );
     }
     let extras = extras(node).map_err(|error| CourseError::Extras {
         node: name.clone(),
@@ -68,7 +70,9 @@ fn add(
             Some(ColliderSpec::Trimesh | ColliderSpec::Convex)
         )
     {
-        return Err(problem("takes its collider from a mesh that it does not have"));
+        return Err(problem(
+            "takes its collider from a mesh that it does not have",
+        ));
     }
     let loaded = Node {
         name: name.clone(),

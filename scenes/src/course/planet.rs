@@ -33,7 +33,12 @@ fn arrive(
     mut commands: Commands,
     planets: Query<(Entity, &Planet, &Transform)>,
     mut characters: Query<
-        (Entity, &mut CharacterMotor, &Transform, Option<&CharacterUp>),
+        (
+            Entity,
+            &mut CharacterMotor,
+            &Transform,
+            Option<&CharacterUp>,
+        ),
         Without<OnPlanet>,
     >,
 ) {

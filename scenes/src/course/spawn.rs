@@ -106,9 +106,7 @@ fn add_physics(entity: &mut EntityCommands, node: &Node, collider: Collider) {
 /// The collider of a node; none when it has none or its numbers make no shape.
 pub(super) fn collider(node: &Node) -> Option<Collider> {
     let collider = match node.extras.collider.as_ref()? {
-        ColliderSpec::Box { size } => {
-            Collider::cuboid(size[0] * 0.5, size[1] * 0.5, size[2] * 0.5)
-        }
+        ColliderSpec::Box { size } => Collider::cuboid(size[0] * 0.5, size[1] * 0.5, size[2] * 0.5),
         ColliderSpec::Ball { radius } => Collider::ball(*radius),
         ColliderSpec::Cylinder { height, radius } => Collider::cylinder(height * 0.5, *radius),
         ColliderSpec::Trimesh => {

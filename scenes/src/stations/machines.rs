@@ -58,18 +58,21 @@ fn lift(lift: Lift) -> Station {
             format!("{:+.3} to {:+.3} mm", low * 1e3, high * 1e3),
         )
     })
-    .ask("carried exactly: no drift over 0.1 mm across it", move |trace| {
-        let ticks = riding(trace);
-        let across = |s: &Sample| {
-            let way = s.foot - node(s).translation;
-            Vec2::new(way.x, way.z)
-        };
-        let Some(first) = ticks.first().map(across) else {
-            return Verdict::never("rode");
-        };
-        let (_, worst) = range(&ticks, |s| across(s).distance(first));
-        Verdict::at_most(f64::from(worst), 0.1e-3, format!("{:.4} mm", worst * 1e3))
-    })
+    .ask(
+        "carried exactly: no drift over 0.1 mm across it",
+        move |trace| {
+            let ticks = riding(trace);
+            let across = |s: &Sample| {
+                let way = s.foot - node(s).translation;
+                Vec2::new(way.x, way.z)
+            };
+            let Some(first) = ticks.first().map(across) else {
+                return Verdict::never("rode");
+            };
+            let (_, worst) = range(&ticks, |s| across(s).distance(first));
+            Verdict::at_most(f64::from(worst), 0.1e-3, format!("{:.4} mm", worst * 1e3))
+        },
+    )
     .ask("reach the far end and come back", move |trace| {
         let ticks = riding(trace);
         let (low, high) = range(&ticks, |s| s.foot.y);
@@ -97,23 +100,34 @@ fn turntable(table: Turntable) -> Station {
     let radius = stand.z;
     Station::new(
         table.name.clone(),
-        format!("stand on a table of {} turns per second for {turns:.0} turns", table.rate),
+        format!(
+            "stand on a table of {} turns per second for {turns:.0} turns",
+            table.rate
+        ),
         table.place,
     )
     .from(stand)
     .track(table.node.clone())
     .script([Step::Wait(0.5), Step::Wait(turns / table.rate)])
-    .ask(format!("stay {radius:.2} m from the axis within 1 mm"), |trace| {
-        let (low, high) = range(trace.step(1), |s| {
-            let way = s.foot - node(s).translation;
-            Vec2::new(way.x, way.z).length()
-        });
-        Verdict::at_most(
-            f64::from(high - low),
-            1e-3,
-            format!("{:.3} to {:.3} m, {:.3} mm apart", low, high, (high - low) * 1e3),
-        )
-    })
+    .ask(
+        format!("stay {radius:.2} m from the axis within 1 mm"),
+        |trace| {
+            let (low, high) = range(trace.step(1), |s| {
+                let way = s.foot - node(s).translation;
+                Vec2::new(way.x, way.z).length()
+            });
+            Verdict::at_most(
+                f64::from(high - low),
+                1e-3,
+                format!(
+                    "{:.3} to {:.3} m, {:.3} mm apart",
+                    low,
+                    high,
+                    (high - low) * 1e3
+                ),
+            )
+        },
+    )
     .ask("stay on its spot of the table within 1 mm", |trace| {
         let ticks = trace.step(1);
         let spot = |s: &Sample| {
@@ -136,8 +150,7 @@ fn belt() -> Station {
     let speed = |trace: &Trace, step: usize| -> Option<f64> {
         let ticks = after(trace.step(step), 0.3);
         let (first, last) = (ticks.first()?, ticks.last()?);
-        (ticks.len() > 2)
-            .then(|| f64::from(ahead(last) - ahead(first)) / (last.time - first.time))
+        (ticks.len() > 2).then(|| f64::from(ahead(last) - ahead(first)) / (last.time - first.time))
     };
     let asked = move |step: usize, wanted: f32| {
         move |trace: &Trace| match speed(trace, step) {
@@ -163,10 +176,21 @@ fn belt() -> Station {
         Step::Wait(0.5),
         Step::ahead(0.9),
     ])
-    .ask(format!("standing, be carried at {belt} m/s within 1 %"), asked(2, belt))
-    .ask(format!("against it, go at {} m/s within 1 %", walk - belt), asked(3, belt - walk))
-    .ask(format!("with it, go at {} m/s within 1 %", walk + belt), asked(5, belt + walk))
-    .ask("never in the air on the belt", |trace| never_airborne(trace.steps(2..6)))
+    .ask(
+        format!("standing, be carried at {belt} m/s within 1 %"),
+        asked(2, belt),
+    )
+    .ask(
+        format!("against it, go at {} m/s within 1 %", walk - belt),
+        asked(3, belt - walk),
+    )
+    .ask(
+        format!("with it, go at {} m/s within 1 %", walk + belt),
+        asked(5, belt + walk),
+    )
+    .ask("never in the air on the belt", |trace| {
+        never_airborne(trace.steps(2..6))
+    })
     .ask("no drift to the side over 1 mm", |trace| {
         let (low, high) = range(trace.steps(1..6), |s| s.foot.x);
         Verdict::at_most(
@@ -186,40 +210,49 @@ fn board() -> Station {
             .last()
             .map_or(f32::NAN, |s| -ops::asin((node(s).rotation * Vec3::Z).y))
     };
-    Station::new("seesaw", "walk over a board on a hinge until it tips", seesaw::PLACE)
-        .track(seesaw::BOARD)
-        .script([
-            Step::Wait(0.5),
-            Step::walk(Vec3::NEG_Z * (-z - arm), 4.0),
-            Step::Wait(0.8),
-            Step::walk(Vec3::NEG_Z * (-z + arm), 4.0),
-            Step::Wait(1.5),
-            Step::walk(Vec3::NEG_Z * (-z + 0.5 * seesaw::SIZE.z + 0.4), 4.0),
-        ])
-        .ask("the near end is down under the walker", move |trace| {
-            let got = tilt(trace.step(2));
-            Verdict::new(got >= 0.9 * seesaw::TILT, format!("{:+.1} degrees", got.to_degrees()))
-        })
-        .ask("behind the hinge, the far end goes down", move |trace| {
-            let got = tilt(trace.step(4));
-            Verdict::new(got <= -0.9 * seesaw::TILT, format!("{:+.1} degrees", got.to_degrees()))
-        })
-        .ask("stand on the board, not in it", |trace| {
-            let Some(last) = trace.step(4).last() else {
-                return Verdict::never("was on it");
-            };
-            let node = node(last);
-            let radius = Character::default().shape.radius();
-            let ball = last.foot + Vec3::Y * radius;
-            let above = (node.rotation.inverse() * (ball - node.translation)).y
-                - 0.5 * seesaw::SIZE.y
-                - radius;
-            Verdict::at_most(
-                f64::from(above.abs()),
-                0.01,
-                format!("{:+.2} mm from its top", above * 1e3),
-            )
-        })
+    Station::new(
+        "seesaw",
+        "walk over a board on a hinge until it tips",
+        seesaw::PLACE,
+    )
+    .track(seesaw::BOARD)
+    .script([
+        Step::Wait(0.5),
+        Step::walk(Vec3::NEG_Z * (-z - arm), 4.0),
+        Step::Wait(0.8),
+        Step::walk(Vec3::NEG_Z * (-z + arm), 4.0),
+        Step::Wait(1.5),
+        Step::walk(Vec3::NEG_Z * (-z + 0.5 * seesaw::SIZE.z + 0.4), 4.0),
+    ])
+    .ask("the near end is down under the walker", move |trace| {
+        let got = tilt(trace.step(2));
+        Verdict::new(
+            got >= 0.9 * seesaw::TILT,
+            format!("{:+.1} degrees", got.to_degrees()),
+        )
+    })
+    .ask("behind the hinge, the far end goes down", move |trace| {
+        let got = tilt(trace.step(4));
+        Verdict::new(
+            got <= -0.9 * seesaw::TILT,
+            format!("{:+.1} degrees", got.to_degrees()),
+        )
+    })
+    .ask("stand on the board, not in it", |trace| {
+        let Some(last) = trace.step(4).last() else {
+            return Verdict::never("was on it");
+        };
+        let node = node(last);
+        let radius = Character::default().shape.radius();
+        let ball = last.foot + Vec3::Y * radius;
+        let above =
+            (node.rotation.inverse() * (ball - node.translation)).y - 0.5 * seesaw::SIZE.y - radius;
+        Verdict::at_most(
+            f64::from(above.abs()),
+            0.01,
+            format!("{:+.2} mm from its top", above * 1e3),
+        )
+    })
 }
 
 fn push(item: Crate) -> Station {
@@ -234,7 +267,10 @@ fn push(item: Crate) -> Station {
     };
     let station = Station::new(
         item.name.clone(),
-        format!("push a crate of {} kg with {strength:.0} N against {weight:.0} N", item.mass),
+        format!(
+            "push a crate of {} kg with {strength:.0} N against {weight:.0} N",
+            item.mass
+        ),
         item.place,
     )
     .track(item.node.clone())
@@ -249,7 +285,10 @@ fn push(item: Crate) -> Station {
                 let local = node.rotation.inverse() * (axis - node.translation);
                 (local.abs() - Vec3::splat(half)).max(Vec3::ZERO).length() - radius
             });
-            Verdict::new(nearest >= -0.01, format!("nearest {:+.2} mm", nearest * 1e3))
+            Verdict::new(
+                nearest >= -0.01,
+                format!("nearest {:+.2} mm", nearest * 1e3),
+            )
         }
     });
     if weight > strength {
@@ -261,27 +300,33 @@ fn push(item: Crate) -> Station {
     }
     let acceleration = f64::from((strength - weight) / item.mass);
     let bound = 1.1 * f64::from(walk);
-    let station = station.ask(format!("not shot away: never over {bound:.1} m/s"), move |trace| {
-        let most = trace
-            .step(1)
-            .windows(2)
-            .map(speed)
-            .reduce(f64::max)
-            .unwrap_or(f64::NAN);
-        Verdict::at_most(most, bound, format!("{most:.2} m/s at most"))
-    });
+    let station = station.ask(
+        format!("not shot away: never over {bound:.1} m/s"),
+        move |trace| {
+            let most = trace
+                .step(1)
+                .windows(2)
+                .map(speed)
+                .reduce(f64::max)
+                .unwrap_or(f64::NAN);
+            Verdict::at_most(most, bound, format!("{most:.2} m/s at most"))
+        },
+    );
     // Light crates reach the walker's speed, heavy ones are still getting there after two seconds.
     if acceleration * 2.0 > f64::from(walk) {
-        station.ask(format!("goes with the walker at {walk} m/s within 5 %"), move |trace| {
-            let ticks = after(trace.step(1), 2.0);
-            match (ticks.first(), ticks.last()) {
-                (Some(first), Some(last)) if ticks.len() > 2 => {
-                    let got = f64::from(moved(last) - moved(first)) / (last.time - first.time);
-                    Verdict::close(got, f64::from(walk), 0.05, format!("{got:.3} m/s"))
+        station.ask(
+            format!("goes with the walker at {walk} m/s within 5 %"),
+            move |trace| {
+                let ticks = after(trace.step(1), 2.0);
+                match (ticks.first(), ticks.last()) {
+                    (Some(first), Some(last)) if ticks.len() > 2 => {
+                        let got = f64::from(moved(last) - moved(first)) / (last.time - first.time);
+                        Verdict::close(got, f64::from(walk), 0.05, format!("{got:.3} m/s"))
+                    }
+                    _ => Verdict::never("was pushed"),
                 }
-                _ => Verdict::never("was pushed"),
-            }
-        })
+            },
+        )
     } else {
         station.ask(
             format!("speeds up by the force balance, {acceleration:.2} m/s², within 5 %"),

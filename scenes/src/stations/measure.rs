@@ -38,7 +38,10 @@ pub fn within_time(
     [from, to]: [f32; 2],
     bound: f32,
 ) -> Verdict {
-    match (crossing(samples, distance, from), crossing(samples, distance, to)) {
+    match (
+        crossing(samples, distance, from),
+        crossing(samples, distance, to),
+    ) {
         (Some(start), Some(end)) => Verdict::at_most(
             end - start,
             f64::from(bound),
@@ -58,7 +61,10 @@ pub fn at_speed(
     speed: f32,
     part: f64,
 ) -> Verdict {
-    match (crossing(samples, distance, from), crossing(samples, distance, to)) {
+    match (
+        crossing(samples, distance, from),
+        crossing(samples, distance, to),
+    ) {
         (Some(start), Some(end)) => {
             let got = f64::from(length) / (end - start);
             Verdict::close(got, f64::from(speed), part, format!("{got:.3} m/s"))
@@ -82,7 +88,10 @@ pub fn ends_at_height(samples: &[Sample], height: f32, tolerance: f32) -> Verdic
 /// Greatest distance of the foot from where it was in the first of these samples, metres.
 pub fn drift(samples: &[Sample]) -> Option<f32> {
     let first = samples.first()?.foot;
-    samples.iter().map(|s| s.foot.distance(first)).reduce(f32::max)
+    samples
+        .iter()
+        .map(|s| s.foot.distance(first))
+        .reduce(f32::max)
 }
 
 /// Whether the foot stayed where it was, metres.

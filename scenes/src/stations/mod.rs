@@ -112,3 +112,28 @@ pub fn stations() -> Vec<Station> {
     .flatten()
     .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::course::Course;
+
+    #[test]
+    fn every_station_starts_where_the_level_marks_it_and_tracks_nodes_that_are_there() {
+        let course = Course::load(Course::default_path()).unwrap();
+        for station in stations() {
+            let marked = course.start(&station.name);
+            let start = marked.unwrap_or_else(|| panic!("no mark for {}", station.name));
+            let gap = start.translation.distance(station.start.translation);
+            assert!(gap < 1e-4, "{} starts {gap} m off its mark", station.name);
+            assert!(start.rotation.angle_between(station.start.rotation) < 1e-3);
+            for node in &station.track {
+                assert!(
+                    course.node(node).is_some(),
+                    "{} has no {node}",
+                    station.name
+                );
+            }
+        }
+    }
+}

@@ -36,11 +36,7 @@ fn corner(corner: Corner) -> Station {
             return Verdict::never("got there");
         };
         let gap = Vec2::new(last.foot.x, last.foot.z - apex).length();
-        Verdict::at_most(
-            f64::from(gap),
-            0.02,
-            format!("{:.2} mm off", gap * 1e3),
-        )
+        Verdict::at_most(f64::from(gap), 0.02, format!("{:.2} mm off", gap * 1e3))
     })
     .ask("stay there within 0.1 mm after 5 ticks", |trace| {
         let ticks = trace.step(2);
@@ -58,10 +54,13 @@ fn wood() -> Station {
         pillars::PLACE,
     )
     .script([Step::Wait(0.3), Step::walk(pillars::GOAL, 2.0 * time)])
-    .ask(format!("get there in at most 1.5 times the straight time, {time:.2} s"), move |trace| {
-        let took = super::trace::duration(trace.step(1));
-        Verdict::at_most(took, f64::from(time), format!("{took:.2} s"))
-    })
+    .ask(
+        format!("get there in at most 1.5 times the straight time, {time:.2} s"),
+        move |trace| {
+            let took = super::trace::duration(trace.step(1));
+            Verdict::at_most(took, f64::from(time), format!("{took:.2} s"))
+        },
+    )
     .ask("never more than 1 mm inside a pillar", move |trace| {
         let (nearest, _) = range(&trace.samples, |sample| {
             pillars::all()
@@ -104,27 +103,37 @@ fn tunnel() -> Station {
                 format!("stopped {:+.1} mm from it", (limit - furthest) * 1e3),
             )
         })
-        .ask(format!("crouch to {low} m and go at {slow} m/s within 1 %"), move |trace| {
-            let way = [APPROACH + 0.5, middle - 0.4];
-            let speed = at_speed(trace.step(3), ahead, way, way[1] - way[0], slow, 0.01);
-            let height = trace.step(3).last().map_or(f32::NAN, |s| s.height);
-            Verdict::new(
-                speed.pass && (height - low).abs() < 1e-3,
-                format!("{height:.3} m, {}", speed.got),
-            )
-        })
+        .ask(
+            format!("crouch to {low} m and go at {slow} m/s within 1 %"),
+            move |trace| {
+                let way = [APPROACH + 0.5, middle - 0.4];
+                let speed = at_speed(trace.step(3), ahead, way, way[1] - way[0], slow, 0.01);
+                let height = trace.step(3).last().map_or(f32::NAN, |s| s.height);
+                Verdict::new(
+                    speed.pass && (height - low).abs() < 1e-3,
+                    format!("{height:.3} m, {}", speed.got),
+                )
+            },
+        )
         .ask("be refused to stand up inside", |trace| {
             let ticks = after(trace.step(5), 0.1);
             let (_, highest) = range(ticks, |s| s.height);
             let refused = ticks.iter().filter(|s| s.refused).count();
             Verdict::new(
                 highest <= crawl::HEIGHT && refused == ticks.len() && refused > 0,
-                format!("{highest:.3} m, refused in {refused} of {} ticks", ticks.len()),
+                format!(
+                    "{highest:.3} m, refused in {refused} of {} ticks",
+                    ticks.len()
+                ),
             )
         })
         .ask(format!("stand {tall} m tall behind it"), move |trace| {
             let height = trace.last().map_or(f32::NAN, |s| s.height);
-            Verdict::at_most(f64::from((height - tall).abs()), 1e-3, format!("{height:.3} m"))
+            Verdict::at_most(
+                f64::from((height - tall).abs()),
+                1e-3,
+                format!("{height:.3} m"),
+            )
         })
 }
 
@@ -144,26 +153,35 @@ fn rungs() -> Station {
         ])
         .ask("hold on to the ladder", |trace| {
             let ticks = trace.step(1);
-            let climbing = ticks.iter().filter(|s| s.mode == MovementMode::Climb).count();
-            Verdict::new(climbing > 0, format!("in {climbing} of {} ticks", ticks.len()))
+            let climbing = ticks
+                .iter()
+                .filter(|s| s.mode == MovementMode::Climb)
+                .count();
+            Verdict::new(
+                climbing > 0,
+                format!("in {climbing} of {} ticks", ticks.len()),
+            )
         })
-        .ask(format!("climb at {speed} m/s, at least half of it"), move |trace| {
-            let height = |s: &super::Sample| s.foot.y;
-            let (from, to) = (0.8, ladder::LEDGE - 0.8);
-            match (
-                super::trace::crossing(trace.step(1), height, from),
-                super::trace::crossing(trace.step(1), height, to),
-            ) {
-                (Some(start), Some(end)) => {
-                    let got = (to - from) / (end - start) as f32;
-                    Verdict::new(
-                        got >= 0.5 * speed && got <= 1.01 * speed,
-                        format!("{got:.2} m/s"),
-                    )
+        .ask(
+            format!("climb at {speed} m/s, at least half of it"),
+            move |trace| {
+                let height = |s: &super::Sample| s.foot.y;
+                let (from, to) = (0.8, ladder::LEDGE - 0.8);
+                match (
+                    super::trace::crossing(trace.step(1), height, from),
+                    super::trace::crossing(trace.step(1), height, to),
+                ) {
+                    (Some(start), Some(end)) => {
+                        let got = (to - from) / (end - start) as f32;
+                        Verdict::new(
+                            got >= 0.5 * speed && got <= 1.01 * speed,
+                            format!("{got:.2} m/s"),
+                        )
+                    }
+                    _ => Verdict::never("got up"),
                 }
-                _ => Verdict::never("got up"),
-            }
-        })
+            },
+        )
         .ask("stand on the ledge within 5 mm", |trace| {
             ends_at_height(trace.step(2), ladder::LEDGE, 0.005)
         })

@@ -29,7 +29,10 @@ fn hill() -> Station {
             Step::walk(Vec3::NEG_Z * beyond, 2.0 * ideal + 2.0),
         ])
         .ask(
-            format!("up in at most 1.5 times the ideal time, {:.2} s", 1.5 * ideal),
+            format!(
+                "up in at most 1.5 times the ideal time, {:.2} s",
+                1.5 * ideal
+            ),
             move |trace| within_time(trace.step(1), ahead, [foot, foot + run - 0.4], 1.5 * ideal),
         )
         .ask(format!("stand {top:.2} m up within 5 mm"), move |trace| {
@@ -57,11 +60,17 @@ fn hill() -> Station {
                 never_backwards(trace.step(1), Vec3::NEG_Z),
                 never_backwards(trace.step(3), Vec3::NEG_Z),
             );
-            Verdict::new(up.pass && down.pass, format!("up: {}, down: {}", up.got, down.got))
+            Verdict::new(
+                up.pass && down.pass,
+                format!("up: {}, down: {}", up.got, down.got),
+            )
         })
         .ask("never in the air", |trace| {
             let (up, down) = (never_airborne(trace.step(1)), never_airborne(trace.step(3)));
-            Verdict::new(up.pass && down.pass, format!("up: {}, down: {}", up.got, down.got))
+            Verdict::new(
+                up.pass && down.pass,
+                format!("up: {}, down: {}", up.got, down.got),
+            )
         })
 }
 
@@ -74,13 +83,19 @@ fn swim() -> Station {
         APPROACH + pool::RAMP + pool::BOTTOM - 0.5,
     ];
     let time = 1.5 * (pool::LENGTH / swim + (goal - pool::LENGTH) / walk);
-    Station::new("pool", "walk into a pool, swim across, walk out", pool::PLACE)
-        .script([
-            Step::Wait(0.3),
-            Step::walk(Vec3::NEG_Z * goal, time + 4.0),
-            Step::Wait(0.4),
-        ])
-        .ask(format!("swim over the deep at {swim} m/s within 2 %"), move |trace| {
+    Station::new(
+        "pool",
+        "walk into a pool, swim across, walk out",
+        pool::PLACE,
+    )
+    .script([
+        Step::Wait(0.3),
+        Step::walk(Vec3::NEG_Z * goal, time + 4.0),
+        Step::Wait(0.4),
+    ])
+    .ask(
+        format!("swim over the deep at {swim} m/s within 2 %"),
+        move |trace| {
             let swims = trace
                 .step(1)
                 .iter()
@@ -89,38 +104,49 @@ fn swim() -> Station {
             let speed = at_speed(trace.step(1), ahead, deep, deep[1] - deep[0], swim, 0.02);
             Verdict::new(
                 swims && speed.pass,
-                format!("{}, {}", speed.got, if swims { "swimming" } else { "not swimming" }),
+                format!(
+                    "{}, {}",
+                    speed.got,
+                    if swims { "swimming" } else { "not swimming" }
+                ),
             )
-        })
-        .ask("head above the water there", move |trace| {
-            let over: Vec<Sample> = trace
-                .step(1)
-                .iter()
-                .filter(|s| (deep[0]..deep[1]).contains(&ahead(s)))
-                .cloned()
-                .collect();
-            let (low, _) = range(&over, |s| s.foot.y + s.height + pool::WATER);
-            Verdict::new(
-                low > 0.0 && !over.is_empty(),
-                format!("top of the head {low:+.2} m from the surface"),
-            )
-        })
-        .ask("never through the bottom", |trace| {
-            let (low, _) = range(&trace.samples, |s| s.foot.y);
-            Verdict::new(low >= -pool::DEPTH - 1e-3, format!("lowest {low:.3} m"))
-        })
-        .ask(format!("be across in at most {time:.1} s"), move |trace| {
-            let took = duration(trace.step(1));
-            Verdict::at_most(took, f64::from(time), format!("{took:.2} s"))
-        })
-        .ask("walk out at the height of the plaza within 5 mm", |trace| {
-            let walks = trace.last().is_some_and(|s| s.mode == MovementMode::Walk && s.on_ground());
-            let height = ends_at_height(trace.step(2), 0.0, 0.005);
-            Verdict::new(
-                walks && height.pass,
-                format!("{}, {}", height.got, if walks { "walking" } else { "not walking" }),
-            )
-        })
+        },
+    )
+    .ask("head above the water there", move |trace| {
+        let over: Vec<Sample> = trace
+            .step(1)
+            .iter()
+            .filter(|s| (deep[0]..deep[1]).contains(&ahead(s)))
+            .cloned()
+            .collect();
+        let (low, _) = range(&over, |s| s.foot.y + s.height + pool::WATER);
+        Verdict::new(
+            low > 0.0 && !over.is_empty(),
+            format!("top of the head {low:+.2} m from the surface"),
+        )
+    })
+    .ask("never through the bottom", |trace| {
+        let (low, _) = range(&trace.samples, |s| s.foot.y);
+        Verdict::new(low >= -pool::DEPTH - 1e-3, format!("lowest {low:.3} m"))
+    })
+    .ask(format!("be across in at most {time:.1} s"), move |trace| {
+        let took = duration(trace.step(1));
+        Verdict::at_most(took, f64::from(time), format!("{took:.2} s"))
+    })
+    .ask("walk out at the height of the plaza within 5 mm", |trace| {
+        let walks = trace
+            .last()
+            .is_some_and(|s| s.mode == MovementMode::Walk && s.on_ground());
+        let height = ends_at_height(trace.step(2), 0.0, 0.005);
+        Verdict::new(
+            walks && height.pass,
+            format!(
+                "{}, {}",
+                height.got,
+                if walks { "walking" } else { "not walking" }
+            ),
+        )
+    })
 }
 
 fn globe() -> Station {
@@ -157,14 +183,17 @@ fn globe() -> Station {
             });
             Verdict::at_most(f64::from(worst), 3.0, format!("{worst:.2} degrees at most"))
         })
-        .ask("come back to the start within 0.5 m, no drift over 2 cm", |trace| {
-            let (low, high) = range(trace.step(1), |s| s.foot.x);
-            let side = high.max(-low);
-            let off = trace.last().map_or(f32::NAN, |s| s.foot.length());
-            Verdict::new(
-                off <= 0.5 && side <= 0.02,
-                format!("{off:.3} m from it, {:.2} mm to the side", side * 1e3),
-            )
-        })
+        .ask(
+            "come back to the start within 0.5 m, no drift over 2 cm",
+            |trace| {
+                let (low, high) = range(trace.step(1), |s| s.foot.x);
+                let side = high.max(-low);
+                let off = trace.last().map_or(f32::NAN, |s| s.foot.length());
+                Verdict::new(
+                    off <= 0.5 && side <= 0.02,
+                    format!("{off:.3} m from it, {:.2} mm to the side", side * 1e3),
+                )
+            },
+        )
         .ask("never in the air", |trace| never_airborne(trace.step(1)))
 }

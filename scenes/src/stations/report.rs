@@ -4,6 +4,8 @@ use core::fmt::Write;
 
 use bevy::{ecs::system::RunSystemOnce, prelude::*};
 
+use bevy_embody::{interpolation::EmbodyInterpolationPlugin, prelude::*};
+
 use super::{StationResult, StationRun, stations};
 use crate::{
     Sim,
@@ -29,14 +31,15 @@ pub fn run_headless_with(course: &Course, filter: Option<&str>, hz: f64) -> Vec<
         .into_iter()
         .filter(|station| filter.is_none_or(|part| station.name.contains(part)))
         .map(|station| {
-            let mut sim = Sim::with(hz, (bevy_embody::EmbodyPlugins, CoursePlugin));
+            // Between ticks a walker is looked at, and an eased pose is not where it is.
+            let plugins = EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>();
+            let mut sim = Sim::with(hz, (plugins, CoursePlugin));
             sim.app.insert_resource(course.clone());
-            let spawned = sim
-                .app
-                .world_mut()
-                .run_system_once(|mut commands: Commands, course: Res<Course>| {
+            let spawned = sim.app.world_mut().run_system_once(
+                |mut commands: Commands, course: Res<Course>| {
                     spawn_course(&mut commands, &course);
-                });
+                },
+            );
             debug_assert!(spawned.is_ok(), "the course is a resource");
             // Queries see colliders from the tick after they were spawned.
             sim.ticks(2);
@@ -72,16 +75,15 @@ pub fn table(results: &[StationResult]) -> String {
         }
     }
     let passed = results.iter().filter(|result| result.passed()).count();
-    let _ = writeln!(
-        text,
-        "{passed} passed, {} failed",
-        results.len() - passed
-    );
+    let _ = writeln!(text, "{passed} passed, {} failed", results.len() - passed);
     text
 }
 
 /// Prints the [`table`].
-#[expect(clippy::print_stdout, reason = "the table is what a headless run is for")]
+#[expect(
+    clippy::print_stdout,
+    reason = "the table is what a headless run is for"
+)]
 pub fn print_table(results: &[StationResult]) {
     print!("{}", table(results));
 }

@@ -37,8 +37,8 @@ impl StationResult {
     }
 }
 
-/// A station being played. Call [`tick`](Self::tick) once before each fixed tick, or in
-/// `FixedUpdate`.
+/// A station being played. Call [`tick`](Self::tick) once before each fixed tick, best in
+/// `FixedPreUpdate`: there poses are exact, and the course has not moved on yet.
 pub struct StationRun {
     station: Station,
     walker: Entity,

@@ -71,7 +71,10 @@ impl Step {
                 format!("walk to ({:.1}, {:.1}) within {timeout:.1} s", to.x, to.z)
             }
             Self::Hold { movement, seconds } => {
-                format!("walk along ({:.2}, {:.2}) for {seconds:.1} s", movement.x, movement.z)
+                format!(
+                    "walk along ({:.2}, {:.2}) for {seconds:.1} s",
+                    movement.x, movement.z
+                )
             }
             Self::Orbit { angle, timeout, .. } => format!(
                 "go {:.0} degrees round within {timeout:.1} s",

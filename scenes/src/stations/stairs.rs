@@ -37,21 +37,31 @@ fn flight(flight: Flight) -> Station {
             Step::Wait(0.2),
         ])
         .ask(
-            format!("up in at most 1.5 times the ideal time, {:.3} s", 1.5 * ideal),
+            format!(
+                "up in at most 1.5 times the ideal time, {:.3} s",
+                1.5 * ideal
+            ),
             move |trace| within_time(trace.step(1), ahead, way, 1.5 * ideal),
         )
         .ask(format!("stand {STAIR_TOP:.1} m up within 5 mm"), |trace| {
             ends_at_height(trace.step(2), STAIR_TOP, 0.005)
         })
         .ask(
-            format!("down in at most 1.5 times the ideal time, {:.3} s", 1.5 * ideal),
+            format!(
+                "down in at most 1.5 times the ideal time, {:.3} s",
+                1.5 * ideal
+            ),
             move |trace| {
                 let back = |s: &super::Sample| -ahead(s);
                 within_time(trace.step(3), back, [-way[1], -way[0]], 1.5 * ideal)
             },
         )
-        .ask("never in the air on the way up", |trace| never_airborne(trace.step(1)))
-        .ask("never in the air on the way down", |trace| never_airborne(trace.step(3)))
+        .ask("never in the air on the way up", |trace| {
+            never_airborne(trace.step(1))
+        })
+        .ask("never in the air on the way down", |trace| {
+            never_airborne(trace.step(3))
+        })
         .ask("never backwards", |trace| {
             let up = never_backwards(trace.step(1), Vec3::NEG_Z);
             let down = never_backwards(trace.step(3), Vec3::Z);
@@ -83,7 +93,10 @@ fn round() -> Station {
             ends_at_height(trace.step(last), top, 0.005)
         })
         .ask(
-            format!("up in at most 1.5 times the ideal time, {:.3} s", 1.5 * ideal),
+            format!(
+                "up in at most 1.5 times the ideal time, {:.3} s",
+                1.5 * ideal
+            ),
             move |trace| {
                 let ticks = trace.steps(1..last);
                 let height = |s: &super::Sample| s.foot.y;
@@ -100,7 +113,9 @@ fn round() -> Station {
                 }
             },
         )
-        .ask("never in the air", move |trace| never_airborne(trace.steps(1..last)))
+        .ask("never in the air", move |trace| {
+            never_airborne(trace.steps(1..last))
+        })
         .ask("never lower than before", move |trace| {
             never_backwards(trace.steps(1..last), Vec3::Y)
         })

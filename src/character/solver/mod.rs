@@ -54,6 +54,7 @@ pub(super) struct Scratch {
     pub near: Neighbourhood,
     touches: Vec<Touch>,
     planes: Vec<HalfSpace>,
+    stops: Vec<slide::Stop>,
     pub blockers: Vec<Blocker>,
     pub impulses: Vec<Impulse>,
 }
@@ -69,6 +70,7 @@ pub(super) struct Solver<'a> {
     pub near: &'a mut Neighbourhood,
     touches: &'a mut Vec<Touch>,
     planes: &'a mut Vec<HalfSpace>,
+    stops: &'a mut Vec<slide::Stop>,
     pub blockers: &'a mut Vec<Blocker>,
     pub impulses: &'a mut Vec<Impulse>,
     /// Own velocity, relative to what carries, metres per second.
@@ -106,6 +108,7 @@ impl<'a> Solver<'a> {
             near: &mut scratch.near,
             touches: &mut scratch.touches,
             planes: &mut scratch.planes,
+            stops: &mut scratch.stops,
             blockers: &mut scratch.blockers,
             impulses: &mut scratch.impulses,
             velocity: Vec3::ZERO,

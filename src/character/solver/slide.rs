@@ -4,7 +4,7 @@ use bevy::prelude::*;
 
 use super::{
     HIT, Solver, TOUCH,
-    touch::{Bend, Blocker, Edge},
+    touch::{Bend, Blocker, Edge, Touch},
 };
 use crate::{
     backend::neighbourhood::{Geometry, ObstacleKind},
@@ -17,23 +17,38 @@ const SWEEPS: usize = 10;
 /// Most advances of one piece in one sweep.
 const ADVANCES: usize = 24;
 
+/// A direction in which the velocity was stopped.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    normal: Vec3,
+    /// Least velocity along the normal, metres per second.
+    bound: f32,
+    yields: u8,
+    /// Whether it raises the velocity instead of turning it.
+    lifts: bool,
+}
+
 impl Solver<'_> {
     /// Moves from `start` by `displacement`, beginning at the fraction `t` of the tick, along
     /// whatever is in the way; takes out of the velocity what is stopped. With `t = 1` the world
     /// stands still where the tick leaves it. `ground` tells whether ground bends upwards.
     pub fn slide(&mut self, start: Vec3, displacement: Vec3, mut t: f32, ground: bool) -> Vec3 {
         let mut p = start;
-        let mut rest = displacement;
+        // What is wished stays as it was; each bend starts from it, never from an earlier bend, so
+        // the result in a corner does not depend on which wall was met first.
+        let mut wish = displacement;
+        let before = self.velocity;
+        self.stops.clear();
         for _ in 0..SWEEPS {
             self.touch(p, t, TOUCH);
-            rest = self.bend(p, rest, t, ground);
+            let rest = self.bend(wish, before, t, ground);
             let s = self.sweep(p, rest, t, 1.0);
             p += rest * s;
             if s >= 1.0 {
                 break;
             }
             t += (1.0 - t) * s;
-            rest *= 1.0 - s;
+            wish *= 1.0 - s;
             if rest == Vec3::ZERO && !self.near.moving {
                 break;
             }
@@ -41,50 +56,42 @@ impl Solver<'_> {
         p
     }
 
-    /// Bends a motion, and the velocity with it, along everything in `touches`.
-    fn bend(&mut self, p: Vec3, rest: Vec3, t: f32, ground: bool) -> Vec3 {
+    /// Bends a motion along everything in `touches`, and the velocity `before` with it.
+    fn bend(&mut self, rest: Vec3, before: Vec3, t: f32, ground: bool) -> Vec3 {
         if self.touches.is_empty() {
             return rest;
         }
         for i in 0..self.touches.len() {
             self.exchange_momentum(i, rest, t);
         }
-        let mut bent = rest;
-        if ground {
-            bent = self.lift(bent, t);
-        }
+        let bent = if ground { self.lift(rest, t) } else { rest };
         self.planes.clear();
-        let mut blocked = bent != rest;
         for touch in self.touches.iter() {
-            let obstacle = &self.near.obstacles[touch.obstacle as usize];
             let push = self.push_of(touch.obstacle, touch.point, touch.normal, t);
             let gap = (touch.distance - HIT).max(0.0);
-            let yields = obstacle.kind as u8;
-            let bound = push - gap;
-            blocked |= touch.normal.dot(bent) < bound;
-            self.planes.push(HalfSpace::new(touch.normal, bound, yields));
+            let yields = self.near.obstacles[touch.obstacle as usize].kind as u8;
+            self.planes
+                .push(HalfSpace::new(touch.normal, push - gap, yields));
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
-                let steepness = level.dot(touch.normal);
+                let steepness = level.dot(touch.normal).max(0.01);
                 let push = self.push_of(touch.obstacle, touch.point, level, t);
-                self.planes.push(HalfSpace::new(level, push - gap / steepness.max(0.01), yields));
+                self.planes
+                    .push(HalfSpace::new(level, push - gap / steepness, yields));
             }
         }
-        if !blocked {
-            // Nothing in the way, but the velocity may still point into something at rest.
-            let bends = self.planes.iter().any(|plane| {
-                plane.normal.dot(bent.as_dvec3()) < plane.bound
-            });
-            if !bends {
-                return bent;
-            }
+        let stopped = self
+            .planes
+            .iter()
+            .any(|plane| plane.normal.dot(bent.as_dvec3()) < plane.bound);
+        if !stopped && bent == rest {
+            return rest;
         }
         self.note_blockers(rest, t);
         let (x, left_out) = nearest_yielding(bent.as_dvec3(), self.planes);
         self.pinned |= left_out;
-        self.bend_velocity(t, ground);
-        let _ = p;
+        self.bend_velocity(before, t, ground);
         x.as_vec3()
     }
 
@@ -118,58 +125,71 @@ impl Solver<'_> {
         }
     }
 
-    /// Takes out of the velocity what the touches stop.
-    fn bend_velocity(&mut self, t: f32, ground: bool) {
-        let per_second = 1.0 / self.dt;
-        let carry = self.carry * per_second;
-        let bound = |solver: &Self, obstacle: u32, point: Vec3, normal: Vec3| {
-            let motion = &solver.near.obstacles[obstacle as usize];
-            let mut push = motion.motion.velocity(point, t).dot(normal) * per_second;
-            if motion.kind == ObstacleKind::Dynamic && !solver.config.pushed_by_bodies {
-                push = push.min(0.0);
-            }
-            // What stands still after the tick's end does not push.
-            if t >= 1.0 { 0.0 } else { push - carry.dot(normal) }
-        };
-        let mut velocity = self.velocity;
-        let before = velocity;
-        if ground {
-            let mut lift = 0.0f32;
-            for touch in self.touches.iter() {
-                if touch.bend == Bend::Ground && touch.on_face {
-                    let need = bound(self, touch.obstacle, touch.point, touch.normal)
-                        - touch.normal.dot(velocity);
-                    lift = lift.max(need / touch.normal.dot(self.up));
-                }
-            }
-            if lift > 0.0 {
-                let lifted = velocity + self.up * lift;
-                velocity = if self.grounded
-                    && self.config.slope_speed == SlopeSpeed::AlongGround
-                    && lifted.length() > before.length()
-                {
-                    lifted * (before.length() / lifted.length())
-                } else {
-                    lifted
-                };
-            }
-        }
-        self.planes.clear();
-        for touch in self.touches.iter() {
+    /// Takes out of the velocity `before` what stops it: the touches of now, and all that stopped it
+    /// earlier in the tick.
+    fn bend_velocity(&mut self, before: Vec3, t: f32, ground: bool) {
+        for i in 0..self.touches.len() {
+            let touch = self.touches[i];
             // Rounded feet roll over low edges without losing speed.
             if ground && touch.bend == Bend::Ground && !touch.on_face {
                 continue;
             }
             let yields = self.near.obstacles[touch.obstacle as usize].kind as u8;
-            self.planes.push(HalfSpace::new(touch.normal, bound(self, touch.obstacle, touch.point, touch.normal), yields));
+            self.stop(touch.normal, self.pace_of(&touch, touch.normal, t), yields, &touch, ground);
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
-                self.planes.push(HalfSpace::new(level, bound(self, touch.obstacle, touch.point, level), yields));
+                self.stop(level, self.pace_of(&touch, level, t), yields, &touch, false);
             }
+        }
+        let mut lift = 0.0f32;
+        for stop in self.stops.iter().filter(|stop| stop.lifts) {
+            let need = stop.bound - stop.normal.dot(before);
+            lift = lift.max(need / stop.normal.dot(self.up));
+        }
+        let mut velocity = before + self.up * lift;
+        if lift > 0.0
+            && self.grounded
+            && self.config.slope_speed == SlopeSpeed::AlongGround
+            && velocity.length() > before.length()
+        {
+            velocity *= before.length() / velocity.length();
+        }
+        self.planes.clear();
+        for stop in self.stops.iter() {
+            self.planes
+                .push(HalfSpace::new(stop.normal, stop.bound, stop.yields));
         }
         let (x, _) = nearest_yielding(velocity.as_dvec3(), self.planes);
         self.velocity = x.as_vec3();
+    }
+
+    /// Speed with which a touch pushes along `normal`, relative to what carries, metres per second.
+    fn pace_of(&self, touch: &Touch, normal: Vec3, t: f32) -> f32 {
+        // What stands still after the tick's end does not push.
+        if t >= 1.0 {
+            return 0.0;
+        }
+        let obstacle = &self.near.obstacles[touch.obstacle as usize];
+        let mut pace = obstacle.motion.velocity(touch.point, t).dot(normal);
+        if obstacle.kind == ObstacleKind::Dynamic && !self.config.pushed_by_bodies {
+            pace = pace.min(0.0);
+        }
+        (pace - self.carry.dot(normal)) / self.dt
+    }
+
+    /// Remembers a direction in which the velocity is stopped; the last bound of a direction holds.
+    fn stop(&mut self, normal: Vec3, bound: f32, yields: u8, touch: &Touch, ground: bool) {
+        let stop = Stop {
+            normal,
+            bound,
+            yields,
+            lifts: ground && touch.bend == Bend::Ground,
+        };
+        match self.stops.iter_mut().find(|s| s.normal.dot(normal) > 0.9999) {
+            Some(known) => *known = stop,
+            None => self.stops.push(stop),
+        }
     }
 
     /// Remembers which touches stop the motion `rest`.

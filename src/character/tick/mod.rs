@@ -84,6 +84,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             && state.view_offset == Vec3::ZERO
             && state.on_ground()
             && !state.crushed
+            && !state.overlapping
             && motor.turn_rate.is_none()
             && !around.activity.near(middle - reach, middle + reach);
         if at_rest {
@@ -161,7 +162,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         solver.carry = self.carry.displacement;
         solver.grounded = grounded && walks;
         let from = solver.recover(pose.position);
-        let recovered = from - pose.position;
+        self.state.overlapping = from != pose.position;
         let mut p = solver.slide(from, displacement, 0.0, walks);
         if !p.is_finite() {
             p = pose.position;
@@ -232,7 +233,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         }
 
         self.note_crush(&mut solver, p);
-        self.finish(&mut solver, p, rotation, support, climbed, snapped, recovered);
+        self.finish(&mut solver, p, rotation, support, climbed, snapped);
     }
 
     /// Rotation at the end of the tick: upright, turned with the platform, facing as asked.

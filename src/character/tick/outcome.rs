@@ -26,7 +26,6 @@ impl Tick<'_, '_, '_, '_> {
         support: Support,
         climbed: Option<(f32, f32)>,
         snapped: f32,
-        recovered: Vec3,
     ) {
         let dt = self.around.dt;
         let up = self.state.up;
@@ -100,7 +99,7 @@ impl Tick<'_, '_, '_, '_> {
         self.state.ground = ground;
         self.state.volume = solver.near.volumes.iter().copied().min();
 
-        self.note_step(solver, climbed, snapped, recovered);
+        self.note_step(solver, climbed, snapped);
         self.weigh(solver, &support, was_on_ground, origin);
         self.note_contacts(solver, origin);
     }
@@ -148,13 +147,11 @@ impl Tick<'_, '_, '_, '_> {
         solver: &Solver,
         climbed: Option<(f32, f32)>,
         snapped: f32,
-        recovered: Vec3,
     ) {
         let up = self.state.up;
         self.contacts.step = solver.step;
         self.contacts.snapped = snapped;
         self.contacts.queries = solver.near.queries;
-        let _ = recovered;
         if let Some((_, height)) = climbed
             && !self.state.stepping
         {

@@ -53,22 +53,27 @@ impl Flight {
 
 /// The straight flights.
 pub fn flights() -> Vec<Flight> {
-    [(0.2, 0.25, true), (0.2, 0.4, false), (0.3, 0.25, false), (0.3, 0.4, true)]
-        .into_iter()
-        .enumerate()
-        .map(|(i, (rise, tread, boxes))| {
-            let steps = ops::round(STAIR_TOP / rise) as usize;
-            let start = STAIR_TOP_X + tread * steps as f32 + APPROACH;
-            Flight {
-                name: format!("stairs_{:02.0}_{:02.0}", rise * 100.0, tread * 100.0),
-                place: Place::new(start, 41.0 - STAIR_SPACING * i as f32, Heading::West),
-                rise,
-                tread,
-                steps,
-                boxes,
-            }
-        })
-        .collect()
+    [
+        (0.2, 0.25, true),
+        (0.2, 0.4, false),
+        (0.3, 0.25, false),
+        (0.3, 0.4, true),
+    ]
+    .into_iter()
+    .enumerate()
+    .map(|(i, (rise, tread, boxes))| {
+        let steps = ops::round(STAIR_TOP / rise) as usize;
+        let start = STAIR_TOP_X + tread * steps as f32 + APPROACH;
+        Flight {
+            name: format!("stairs_{:02.0}_{:02.0}", rise * 100.0, tread * 100.0),
+            place: Place::new(start, 41.0 - STAIR_SPACING * i as f32, Heading::West),
+            rise,
+            tread,
+            steps,
+            boxes,
+        }
+    })
+    .collect()
 }
 
 /// A spiral stair; it turns left, its first riser is straight ahead of the walker.
@@ -434,16 +439,19 @@ impl Turntable {
 
 /// The turntables.
 pub fn turntables() -> Vec<Turntable> {
-    [("turntable", 10.0, 2.8, 0.25), ("turntable_fast", 17.5, 2.2, 1.0)]
-        .into_iter()
-        .map(|(name, x, radius, rate)| Turntable {
-            name: name.into(),
-            node: format!("{name}.table"),
-            place: Place::new(x, -15.5, Heading::East),
-            radius,
-            rate,
-        })
-        .collect()
+    [
+        ("turntable", 10.0, 2.8, 0.25),
+        ("turntable_fast", 17.5, 2.2, 1.0),
+    ]
+    .into_iter()
+    .map(|(name, x, radius, rate)| Turntable {
+        name: name.into(),
+        node: format!("{name}.table"),
+        place: Place::new(x, -15.5, Heading::East),
+        radius,
+        rate,
+    })
+    .collect()
 }
 
 /// A board on a hinge.

@@ -1,0 +1,30 @@
+//! The character that keyboard, mouse and camera belong to.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+
+use super::{camera::ViewEase, figure::FigureOf, input::Controls};
+
+/// The character that keyboard, mouse and camera belong to.
+#[derive(Component, Clone, Copy, Debug, Default)]
+#[require(Controls, ViewEase, FigureOf)]
+pub struct Player;
+
+/// A character that the player steers, with its foot at this pose.
+pub fn player(start: Transform) -> impl Bundle {
+    (
+        Name::new("player"),
+        Player,
+        Character::default(),
+        player_motor(&CharacterMotor::default()),
+        start,
+    )
+}
+
+/// A motor that turns the figure to where it walks.
+pub(super) fn player_motor(motor: &CharacterMotor) -> CharacterMotor {
+    CharacterMotor {
+        turn_rate: Some(12.0),
+        ..motor.clone()
+    }
+}

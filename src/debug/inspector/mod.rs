@@ -1,0 +1,76 @@
+//! A panel that shows a character live and tunes it.
+
+mod edits;
+mod fields;
+mod findings;
+mod panel;
+mod plots;
+mod record;
+mod units;
+mod variants;
+
+use bevy::prelude::*;
+use bevy_egui::{EguiPlugin, EguiPrimaryContextPass};
+
+pub use edits::TuningEdits;
+
+use crate::character::{Character, CharacterMotor};
+
+/// The tuning panel: every field of [`Character`] and [`CharacterMotor`] live, plots of speed and
+/// ground state, the last step with its reason, refusals and contacts.
+///
+/// It is drawn by `bevy_egui`, which is added if it is not there. Open and close it through
+/// [`InspectorPanel`]; keep the game's own input away from it with `bevy_egui`'s run conditions
+/// `egui_wants_any_pointer_input` and `egui_wants_any_keyboard_input`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct EmbodyInspectorPlugin;
+
+impl Plugin for EmbodyInspectorPlugin {
+    fn build(&self, app: &mut App) {
+        if !app.is_plugin_added::<EguiPlugin>() {
+            app.add_plugins(EguiPlugin::default());
+        }
+        app.register_type::<Character>()
+            .register_type::<CharacterMotor>()
+            .init_resource::<InspectorPanel>()
+            .init_resource::<TuningEdits>()
+            .init_resource::<record::Record>()
+            .add_systems(FixedPreUpdate, edits::apply_edits)
+            .add_systems(FixedLast, record::record)
+            .add_systems(
+                EguiPrimaryContextPass,
+                panel::show.run_if(|panel: Res<InspectorPanel>| panel.open),
+            );
+    }
+}
+
+/// Whether the panel is shown, and of whom.
+#[derive(Resource, Clone, Debug)]
+pub struct InspectorPanel {
+    /// Whether it is shown.
+    pub open: bool,
+    /// The character to show; `None` shows the one with the lowest entity index.
+    pub character: Option<Entity>,
+    /// How far back the plots reach, seconds.
+    pub seconds: f64,
+}
+
+impl Default for InspectorPanel {
+    fn default() -> Self {
+        Self {
+            open: true,
+            character: None,
+            seconds: 10.0,
+        }
+    }
+}
+
+impl InspectorPanel {
+    /// The character to show out of all there are.
+    fn pick<D>(&self, mut all: impl Iterator<Item = (Entity, D)>) -> Option<(Entity, D)> {
+        match self.character {
+            Some(chosen) => all.find(|(entity, _)| *entity == chosen),
+            None => all.min_by_key(|(entity, _)| *entity),
+        }
+    }
+}

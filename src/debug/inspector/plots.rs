@@ -1,0 +1,123 @@
+//! Curves over the last seconds.
+
+use bevy_egui::egui::{Color32, Rangef, Ui};
+use egui_plot::{Corner, Legend, Line, Plot, PlotPoints};
+
+use super::record::Record;
+use crate::{character::GroundState, debug::explain::Explain};
+
+const STATES: [GroundState; 4] = [
+    GroundState::InAir,
+    GroundState::Unsupported,
+    GroundState::Steep,
+    GroundState::OnGround,
+];
+
+/// Draws speed and ground state against seconds before now.
+pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
+    let Some(now) = record.samples.back().map(|last| last.time) else {
+        ui.weak("nothing recorded yet");
+        return;
+    };
+    let curve = |value: &dyn Fn(&super::record::Sample) -> f64| -> Vec<[f64; 2]> {
+        record
+            .samples
+            .iter()
+            .map(|sample| [sample.time - now, value(sample)])
+            .collect()
+    };
+    let level = curve(&|sample| sample.level.into());
+    let rise = curve(&|sample| sample.rise.into());
+    base("speed", seconds)
+        .height(100.0)
+        .grid_spacing(Rangef::new(8.0, 40.0))
+        .include_y(0.0)
+        .include_y(6.0)
+        .legend(Legend::default().position(Corner::LeftTop))
+        .show(ui, |plot| {
+            plot.line(
+                Line::new("level m/s", PlotPoints::from(level))
+                    .color(Color32::from_rgb(250, 204, 21)),
+            );
+            plot.line(
+                Line::new("rise m/s", PlotPoints::from(rise))
+                    .color(Color32::from_rgb(56, 189, 248)),
+            );
+        });
+
+    let states = steps(&curve(&|sample| level_of(sample.ground)));
+    base("ground", seconds)
+        .height(80.0)
+        // Labels fade with the spacing of their lines: these are always wanted.
+        .grid_spacing(Rangef::new(1.0, 8.0))
+        .include_y(-0.3)
+        .include_y(3.3)
+        .y_axis_formatter(|mark, _| {
+            STATES
+                .iter()
+                .find(|state| (level_of(**state) - mark.value).abs() < 0.01)
+                .map(Explain::text)
+                .unwrap_or_default()
+        })
+        .y_grid_spacer(|_| {
+            STATES
+                .map(|state| egui_plot::GridMark {
+                    value: level_of(state),
+                    step_size: 1.0,
+                })
+                .to_vec()
+        })
+        .show(ui, |plot| {
+            plot.line(
+                Line::new("ground", PlotPoints::from(states))
+                    .color(Color32::from_rgb(74, 222, 128)),
+            );
+        });
+}
+
+fn base(name: &'static str, seconds: f64) -> Plot<'static> {
+    Plot::new(name)
+        .include_x(-seconds)
+        .include_x(0.0)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .y_axis_min_width(70.0)
+}
+
+fn level_of(state: GroundState) -> f64 {
+    match state {
+        GroundState::InAir => 0.0,
+        GroundState::Unsupported => 1.0,
+        GroundState::Steep => 2.0,
+        GroundState::OnGround => 3.0,
+    }
+}
+
+/// A curve that holds each value until the next, without slopes between them.
+fn steps(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut held = Vec::with_capacity(points.len() * 2);
+    let mut last: Option<f64> = None;
+    for &[x, y] in points {
+        if let Some(before) = last
+            && before != y
+        {
+            held.push([x, before]);
+        }
+        held.push([x, y]);
+        last = Some(y);
+    }
+    held
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_of_state_is_a_vertical_line() {
+        let held = steps(&[[0.0, 3.0], [1.0, 3.0], [2.0, 0.0]]);
+        assert_eq!(held, [[0.0, 3.0], [1.0, 3.0], [2.0, 3.0], [2.0, 0.0]]);
+    }
+}

@@ -1,0 +1,24 @@
+//! The character controller, measured against closed forms, invariants and symmetries.
+
+mod support;
+mod warnings;
+
+mod corners;
+mod crowd;
+mod determinism;
+mod events;
+mod extremes;
+mod filters;
+mod floor;
+mod fuzz;
+mod jolt_course;
+mod motor;
+mod platforms;
+mod pushing;
+mod slopes;
+mod stairs;
+mod stance;
+mod upward;
+mod volumes;
+mod walls;
+

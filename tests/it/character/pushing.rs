@@ -1,0 +1,361 @@
+//! Pushing bodies and being pushed: force balances, caps, weight, opt-outs.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::*;
+use embody_scenes::Sim;
+
+use super::support::*;
+
+/// A floor and on it a crate of 1 m with this mass, friction and damping, ahead of a pusher.
+struct Push {
+    sim: Sim,
+    pusher: Entity,
+    crate_: Entity,
+}
+
+fn pushing(hz: f64, mass: f32, friction: f32, damping: f32, strength: f32) -> Push {
+    let mut sim = Sim::new(hz);
+    let floor = sim.floor(0.0);
+    insert(&mut sim, floor, Friction::coefficient(friction));
+    let crate_ = sim.dynamic(Collider::cuboid(0.5, 0.5, 0.5), Transform::from_xyz(1.0, 0.5, 0.0), mass);
+    insert(
+        &mut sim,
+        crate_,
+        (
+            Friction::coefficient(friction),
+            Damping {
+                linear_damping: damping,
+                angular_damping: 0.0,
+            },
+            // It slides and does not tip: the balance of forces is then exact.
+            LockedAxes::ROTATION_LOCKED,
+        ),
+    );
+    let pusher = runner_with(
+        &mut sim,
+        Character { push_strength: strength, ..default() },
+        Vec3::new(0.1, 0.0, 0.0),
+    );
+    sim.seconds(0.5);
+    sim.walk(pusher, Vec3::X);
+    Push { sim, pusher, crate_ }
+}
+
+impl Push {
+    /// Mean speeds of crate and pusher over the next second.
+    fn speeds(&mut self) -> (f32, f32) {
+        let start = [self.crate_, self.pusher].map(|e| self.sim.position(e).x);
+        self.sim.seconds(1.0);
+        let end = [self.crate_, self.pusher].map(|e| self.sim.position(e).x);
+        (end[0] - start[0], end[1] - start[1])
+    }
+}
+
+#[test]
+fn a_pushed_crate_reaches_the_speed_of_its_force_balance() {
+    // Strength = friction + damping × mass × speed, as long as that is below the walking speed.
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (mass, friction, damping, strength) in [
+            (1.0, 0.3, 1.0, 5.0),
+            (10.0, 0.3, 1.0, 50.0),
+            (100.0, 0.3, 1.0, 500.0),
+            (1000.0, 0.3, 1.0, 5000.0),
+            (100.0, 0.0, 2.0, 500.0),
+            (1000.0, 0.0, 0.5, 500.0),
+            (10.0, 0.8, 0.5, 100.0),
+        ] {
+            let mut push = pushing(hz, mass, friction, damping, strength);
+            push.sim.seconds(f64::from(6.0 / damping));
+            let (crate_, pusher) = push.speeds();
+            let wanted = ((strength - friction * mass * G) / (damping * mass)).clamp(0.0, SPEED);
+            let case = format!("{hz} Hz {mass} kg µ {friction} damping {damping} strength {strength}");
+            found.within(format!("{case}: crate"), crate_, wanted, 0.05);
+            found.within(format!("{case}: pusher"), pusher, wanted, 0.05);
+        }
+    }
+}
+
+#[test]
+fn crates_of_one_to_a_hundred_kilograms_are_pushed_at_walking_speed_and_a_tonne_stays() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (mass, wanted) in [(1.0, SPEED), (10.0, SPEED), (100.0, SPEED), (1000.0, 0.0)] {
+            // 500 N against friction of 2.9 N to 2.9 kN.
+            let mut push = pushing(hz, mass, 0.3, 0.0, 500.0);
+            let mut fastest: f32 = 0.0;
+            for _ in 0..(5.0 * hz) as usize {
+                push.sim.ticks(1);
+                fastest = fastest.max(push.sim.get::<Velocity>(push.crate_).linear.length());
+            }
+            let (crate_, pusher) = push.speeds();
+            let case = format!("{hz} Hz {mass} kg");
+            found.near(format!("{case}: crate"), crate_, wanted, wanted * 0.05 + 0.001);
+            found.near(format!("{case}: pusher"), pusher, wanted, wanted * 0.05 + 0.001);
+            // No crate is shot away.
+            found.at_most(format!("{case}: fastest"), fastest, SPEED * 1.05);
+            if wanted == 0.0 {
+                found.near(format!("{case}: moved"), push.sim.position(push.crate_).x, 1.0, 0.002);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_crate_is_accelerated_by_no_more_than_the_strength() {
+    // Without friction and damping 500 N give 100 kg 5 m/s².
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut push = pushing(hz, 100.0, 0.0, 0.0, 500.0);
+        push.sim.seconds(0.2);
+        let before = push.sim.get::<Velocity>(push.crate_).linear.x;
+        push.sim.seconds(0.5);
+        let after = push.sim.get::<Velocity>(push.crate_).linear.x;
+        found.within(format!("{hz} Hz"), (after - before) / 0.5, 5.0, 0.05);
+    }
+}
+
+#[test]
+fn a_crate_that_may_tip_is_pushed_along_and_a_light_one_does_not_fly() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for mass in [1.0, 10.0, 50.0] {
+            let mut sim = Sim::new(hz);
+            sim.floor(0.0);
+            let crate_ = sim.dynamic(Collider::cuboid(0.3, 0.3, 0.3), Transform::from_xyz(1.0, 0.3, 0.05), mass);
+            let pusher = runner(&mut sim, Vec3::ZERO);
+            sim.seconds(0.5);
+            sim.walk(pusher, Vec3::X);
+            let (mut fastest, mut highest): (f32, f32) = (0.0, 0.0);
+            for _ in 0..(3.0 * hz) as usize {
+                sim.ticks(1);
+                fastest = fastest.max(sim.get::<Velocity>(crate_).linear.length());
+                highest = highest.max(sim.position(crate_).y);
+            }
+            let case = format!("{hz} Hz {mass} kg");
+            found.at_most(format!("{case}: fastest"), fastest, SPEED * 1.3);
+            found.at_most(format!("{case}: highest"), highest, 1.0);
+            found.holds(format!("{case}: finite"), finite(&sim, pusher));
+            found.at_least(format!("{case}: pusher came forward"), sim.position(pusher).x, 2.0);
+        }
+    }
+}
+
+#[test]
+fn without_strength_every_body_is_a_wall() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for opted_out in [false, true] {
+            let strength = if opted_out { 500.0 } else { 0.0 };
+            let mut push = pushing(hz, 1.0, 0.0, 0.0, strength);
+            if opted_out {
+                let crate_ = push.crate_;
+                insert(&mut push.sim, crate_, NotPushable);
+            }
+            push.sim.seconds(2.0);
+            let case = format!("{hz} Hz opted out {opted_out}");
+            let crate_ = push.sim.position(push.crate_);
+            found.near(format!("{case}: crate"), crate_.x, 1.0, 0.001);
+            found.near(format!("{case}: pusher"), push.sim.position(push.pusher).x, 0.2, 0.022);
+        }
+    }
+}
+
+#[test]
+fn the_weight_of_a_character_rests_on_what_it_stands_on() {
+    // A beam on a hinge: the side with the character goes down; without weight it stays level.
+    let mut found = Findings::new();
+    for hz in RATES {
+        for weighs in [true, false] {
+            let mut sim = Sim::new(hz);
+            let post = sim.block(Vec3::new(0.0, 0.5, 0.0), Vec3::new(0.1, 1.0, 0.1));
+            let board = sim.dynamic(Collider::cuboid(4.0, 0.05, 0.5), Transform::from_xyz(0.0, 1.5, 0.0), 40.0);
+            let hinge = RevoluteJointBuilder::new(Vec3::Z).local_anchor1(Vec3::Y).local_anchor2(Vec3::ZERO);
+            insert(&mut sim, board, ImpulseJoint::new(post, TypedJoint::RevoluteJoint(hinge.build())));
+            let rider = runner_with(
+                &mut sim,
+                Character { weighs_on_ground: weighs, ..default() },
+                Vec3::new(2.0, 1.56, 0.0),
+            );
+            sim.seconds(0.5);
+            let tilt = (sim.get::<Transform>(board).rotation * Vec3::X).y;
+            let case = format!("{hz} Hz weighs {weighs}");
+            if weighs {
+                // 70 kg at 2 m on a beam of 213 kg m²: 2.8 rad/s² at first, 0.35 rad in half a second;
+                // a free fall of the rider's side is 0.61 rad.
+                found.at_most(format!("{case}: tilt"), tilt, -0.2);
+                found.at_least(format!("{case}: tilt"), tilt, -0.62);
+            } else {
+                found.near(format!("{case}: tilt"), tilt, 0.0, 0.03);
+            }
+            found.holds(format!("{case}: finite"), finite(&sim, rider));
+        }
+    }
+}
+
+#[test]
+fn a_scale_under_a_standing_character_shows_its_weight() {
+    // A spring of 7 kN/m holds a plate: the standing character sinks it by m g / k more.
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let base = sim.block(Vec3::NEG_Y * 10.0, Vec3::ONE);
+        let plate = sim.dynamic(Collider::cuboid(1.0, 0.1, 1.0), Transform::IDENTITY, 100.0);
+        insert(&mut sim, plate, LockedAxes::ROTATION_LOCKED);
+        let spring = PrismaticJointBuilder::new(Vec3::Y)
+            .local_anchor1(Vec3::Y * 10.0)
+            .local_anchor2(Vec3::ZERO)
+            .motor_model(MotorModel::ForceBased)
+            .motor_position(0.0, 7000.0, 1500.0);
+        insert(&mut sim, plate, ImpulseJoint::new(base, TypedJoint::PrismaticJoint(spring.build())));
+        sim.seconds(4.0);
+        let free = sim.position(plate).y;
+        let character = Character { mass: 80.0, ..default() };
+        let stander = runner_with(&mut sim, character, Vec3::Y * (free + 0.11));
+        sim.seconds(6.0);
+        let loaded = sim.position(plate).y;
+        found.within(format!("{hz} Hz: sinks"), free - loaded, 80.0 * G / 7000.0, 0.05);
+        let gap = sim.position(stander).y - loaded - 0.1;
+        found.near(format!("{hz} Hz: stands on it"), gap, 0.0, 0.01);
+    }
+}
+
+#[test]
+fn a_body_that_runs_into_a_character_pushes_it_according_to_its_mass() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut moved = Vec::new();
+        for mass in [1.0, 10.0, 70.0, 700.0] {
+            let mut sim = Sim::new(hz);
+            record(&mut sim);
+            let floor = sim.floor(0.0);
+            insert(&mut sim, floor, Friction::coefficient(0.0));
+            let ball = sim.dynamic(Collider::ball(0.4), Transform::from_xyz(-2.0, 0.9, 0.0), mass);
+            insert(&mut sim, ball, (Velocity::linear(Vec3::X * 4.0), GravityScale(0.0)));
+            let target = sim.spawn((Character::default(), Transform::IDENTITY));
+            sim.seconds(2.0);
+            let pushed = sim.position(target).x;
+            moved.push(pushed);
+            let hits = take_events(&mut sim).hit;
+            let case = format!("{hz} Hz {mass} kg");
+            found.holds(format!("{case}: hit told"), hits.iter().any(|h| h.entity == target && h.other == ball));
+            found.holds(format!("{case}: finite"), finite(&sim, target));
+            // No more than the ball brought along.
+            found.at_most(format!("{case}: pushed"), pushed, 4.0 * 2.0);
+            found.at_least(format!("{case}: pushed"), pushed, -0.001);
+        }
+        for pair in moved.windows(2) {
+            found.holds(
+                format!("{hz} Hz: a heavier ball pushes farther, {moved:?}"),
+                pair[1] > pair[0],
+            );
+        }
+        found.at_least(format!("{hz} Hz: 700 kg pushes"), moved[3], 0.2);
+    }
+}
+
+#[test]
+fn a_character_that_is_not_pushed_by_bodies_stands_like_a_rock() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let floor = sim.floor(0.0);
+        insert(&mut sim, floor, Friction::coefficient(0.0));
+        let ball = sim.dynamic(Collider::ball(0.4), Transform::from_xyz(-2.0, 0.9, 0.0), 700.0);
+        insert(&mut sim, ball, (Velocity::linear(Vec3::X * 4.0), GravityScale(0.0)));
+        let character = Character { pushed_by_bodies: false, ..default() };
+        let rock = runner_with(&mut sim, character, Vec3::ZERO);
+        sim.seconds(2.0);
+        found.at_most(format!("{hz} Hz: moved"), sim.position(rock).length(), 0.001);
+        found.at_most(format!("{hz} Hz: ball stopped"), sim.position(ball).x, -0.69);
+    }
+}
+
+#[test]
+fn a_kinematic_wall_pushes_an_idle_character_along() {
+    // Half (0.5, 2, 2) from x = -3 at 2 m/s: known to pass through an idle character elsewhere.
+    let mut found = Findings::new();
+    for hz in RATES {
+        for idle in [0.0, 4.0] {
+            let mut sim = Sim::new(hz);
+            sim.floor(0.0);
+            let wall = sim.mover(Collider::cuboid(0.5, 2.0, 2.0), move |t| {
+                Transform::from_xyz((-3.0 + 2.0 * (t - idle).max(0.0)) as f32, 2.0, 0.0)
+            });
+            let idler = runner(&mut sim, Vec3::ZERO);
+            sim.seconds(idle);
+            let mut overlap = f32::MIN;
+            for _ in 0..(4.0 * hz) as usize {
+                sim.ticks(1);
+                overlap = overlap.max(sim.position(wall).x + 0.5 - (sim.position(idler).x - 0.3));
+            }
+            let case = format!("{hz} Hz idle {idle} s");
+            found.at_most(format!("{case}: deepest overlap"), overlap, 0.01);
+            found.near(format!("{case}: pushed to"), sim.position(idler).x, 5.0 + 0.5 + 0.3, 0.03);
+            found.near(format!("{case}: height"), sim.position(idler).y, 0.0, 0.002);
+        }
+    }
+}
+
+#[test]
+fn the_crate_under_a_character_is_not_pushed_by_its_own_rider() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let floor = sim.floor(0.0);
+        insert(&mut sim, floor, Friction::coefficient(0.0));
+        let raft = sim.dynamic(Collider::cuboid(1.0, 0.25, 1.0), Transform::from_xyz(0.0, 0.25, 0.0), 20.0);
+        let rider = runner(&mut sim, Vec3::new(0.3, 0.5, 0.2));
+        sim.seconds(3.0);
+        found.at_most(format!("{hz} Hz: raft"), sim.position(raft).with_y(0.0).length(), 0.01);
+        found.near(format!("{hz} Hz: rider"), sim.position(rider).y, 0.5, 0.01);
+    }
+}
+
+#[test]
+fn another_character_pushes_the_crate_one_stands_on() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut push = pushing(hz, 100.0, 0.1, 2.0, 800.0);
+        let rider = runner(&mut push.sim, Vec3::new(1.0, 1.0, 0.0));
+        push.sim.seconds(3.0);
+        let on = push.sim.position(rider) - push.sim.position(push.crate_);
+        found.near(format!("{hz} Hz: rider carried along"), on.x, 0.0, 0.05 + 4.0 / hz as f32);
+        found.near(format!("{hz} Hz: rider on top"), on.y, 0.5, 0.01);
+        found.at_least(format!("{hz} Hz: crate moved"), push.sim.position(push.crate_).x, 2.0);
+    }
+}
+
+#[test]
+fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
+    // The same box as a body at y = 3 and as a collider offset by 3 m.
+    let mut found = Findings::new();
+    for hz in RATES {
+        let run = |offset: bool| {
+            let mut sim = Sim::new(hz);
+            sim.floor(0.0);
+            let shape = Collider::cuboid(0.5, 3.5, 0.5);
+            let body = if offset {
+                let body = sim.spawn((RigidBody::Dynamic, Transform::from_xyz(1.0, 0.51, 0.0), Velocity::default(), GravityScale(0.0)));
+                let child = (shape, ColliderMassProperties::Mass(200.0), Transform::from_xyz(0.0, 3.0, 0.0), ChildOf(body));
+                sim.spawn(child);
+                body
+            } else {
+                let body = sim.dynamic(shape, Transform::from_xyz(1.0, 3.51, 0.0), 200.0);
+                insert(&mut sim, body, GravityScale(0.0));
+                body
+            };
+            let pusher = runner(&mut sim, Vec3::ZERO);
+            sim.ticks(3);
+            sim.walk(pusher, Vec3::X);
+            sim.seconds(0.3);
+            sim.get::<Velocity>(body)
+        };
+        let (plain, offset) = (run(false), run(true));
+        // Rapier's velocities are those of the centre of mass.
+        found.holds(format!("{hz} Hz: turns"), plain.angular.length() > 1e-4);
+        found.at_most(format!("{hz} Hz: turn differs"), plain.angular.distance(offset.angular), 2e-3);
+        found.at_most(format!("{hz} Hz: speed differs"), plain.linear.distance(offset.linear), 5e-3);
+    }
+}

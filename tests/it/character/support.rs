@@ -1,0 +1,256 @@
+//! What the tests of the character share: rates, collected findings, oracles, a log of events.
+
+use std::{fmt::Display, thread};
+
+use bevy::{
+    math::{DVec3, ops},
+    prelude::*,
+};
+use bevy_embody::prelude::*;
+use bevy_rapier3d::{parry, parry::math::Pose, prelude::*};
+use embody_scenes::Sim;
+
+/// The tick rates that everything must hold at, hertz.
+pub const RATES: [f64; 4] = [30.0, 60.0, 120.0, 240.0];
+
+/// Walking speed of [`prompt`], metres per second.
+pub const SPEED: f32 = 5.0;
+
+/// Gravity of the harness, metres per second squared.
+pub const G: f32 = 9.81;
+
+/// Collects what went wrong, so that one failure shows the numbers of all cases.
+#[derive(Default)]
+pub struct Findings {
+    wrong: Vec<String>,
+    checked: usize,
+}
+
+impl Findings {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// `measured` must be within `tolerance` of `wanted`.
+    pub fn near(&mut self, what: impl Display, measured: f32, wanted: f32, tolerance: f32) {
+        self.checked += 1;
+        let off = (measured - wanted).abs();
+        if off.is_nan() || off > tolerance {
+            self.wrong.push(format!(
+                "{what}: measured {measured}, wanted {wanted} ± {tolerance} (off by {off:.6})"
+            ));
+        }
+    }
+
+    /// `measured` must be within a part of `wanted`.
+    pub fn within(&mut self, what: impl Display, measured: f32, wanted: f32, part: f32) {
+        self.near(what, measured, wanted, (wanted * part).abs());
+    }
+
+    /// `measured` must not exceed `bound`.
+    pub fn at_most(&mut self, what: impl Display, measured: f32, bound: f32) {
+        self.checked += 1;
+        if measured.is_nan() || measured > bound {
+            self.wrong
+                .push(format!("{what}: measured {measured}, wanted at most {bound}"));
+        }
+    }
+
+    /// `measured` must not fall below `bound`.
+    pub fn at_least(&mut self, what: impl Display, measured: f32, bound: f32) {
+        self.checked += 1;
+        if measured.is_nan() || measured < bound {
+            self.wrong
+                .push(format!("{what}: measured {measured}, wanted at least {bound}"));
+        }
+    }
+
+    /// Must be so.
+    pub fn holds(&mut self, what: impl Display, so: bool) {
+        self.checked += 1;
+        if !so {
+            self.wrong.push(format!("{what}: does not hold"));
+        }
+    }
+}
+
+impl Drop for Findings {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            return;
+        }
+        assert!(self.checked > 0, "nothing was checked");
+        assert!(
+            self.wrong.is_empty(),
+            "{} of {} checks failed:\n  {}",
+            self.wrong.len(),
+            self.checked,
+            self.wrong.join("\n  ")
+        );
+    }
+}
+
+/// A motor that reaches its speed and stops at once, so that distances have a closed form.
+pub fn prompt() -> CharacterMotor {
+    CharacterMotor {
+        walk_speed: SPEED,
+        acceleration: f32::INFINITY,
+        friction: f32::INFINITY,
+        ..default()
+    }
+}
+
+/// Spawns a default character with a [`prompt`] motor.
+pub fn runner(sim: &mut Sim, foot: Vec3) -> Entity {
+    runner_with(sim, Character::default(), foot)
+}
+
+/// Spawns a character with a [`prompt`] motor.
+pub fn runner_with(sim: &mut Sim, character: Character, foot: Vec3) -> Entity {
+    sim.spawn((character, prompt(), Transform::from_translation(foot)))
+}
+
+/// Spawns a character whose velocity the test writes.
+pub fn raw(sim: &mut Sim, foot: Vec3) -> Entity {
+    sim.spawn((
+        Character::default(),
+        CustomMotor,
+        Transform::from_translation(foot),
+    ))
+}
+
+/// Writes a character's velocity, metres per second.
+pub fn set_velocity(sim: &mut Sim, character: Entity, velocity: Vec3) {
+    sim.app
+        .world_mut()
+        .get_mut::<CharacterState>(character)
+        .expect("a character has a state")
+        .velocity = velocity;
+}
+
+/// Changes a component in place.
+pub fn edit<C: Component<Mutability = bevy::ecs::component::Mutable>>(
+    sim: &mut Sim,
+    entity: Entity,
+    change: impl FnOnce(&mut C),
+) {
+    let mut entity = sim.app.world_mut().entity_mut(entity);
+    change(&mut entity.get_mut::<C>().expect("the component is there"));
+}
+
+/// Adds components to an entity.
+pub fn insert(sim: &mut Sim, entity: Entity, bundle: impl Bundle) {
+    sim.app.world_mut().entity_mut(entity).insert(bundle);
+}
+
+/// Position with the part that single precision cannot hold, as double precision.
+pub fn exact_position(sim: &Sim, character: Entity) -> DVec3 {
+    sim.position(character).as_dvec3() + sim.state(character).residual.as_dvec3()
+}
+
+/// A level direction at this angle from `+X` towards `+Z`, degrees.
+pub fn heading(degrees: f32) -> Vec3 {
+    let (sin, cos) = ops::sin_cos(degrees.to_radians());
+    Vec3::new(cos, 0.0, sin)
+}
+
+/// Whether everything of a character is finite.
+pub fn finite(sim: &Sim, character: Entity) -> bool {
+    let (transform, state) = (sim.get::<Transform>(character), sim.state(character));
+    transform.translation.is_finite()
+        && transform.rotation.is_finite()
+        && state.velocity.is_finite()
+        && state.platform_velocity.is_finite()
+        && state.up.is_finite()
+        && state.height.is_finite()
+        && state.view_offset.is_finite()
+        && state.residual.is_finite()
+        && state.ground.normal.is_finite()
+        && state.ground.point.is_finite()
+        && state.ground.velocity.is_finite()
+}
+
+/// The standing capsule of a character whose shape is one, as parry sees it.
+fn capsule_of(sim: &Sim, character: Entity) -> (Pose, parry::shape::Capsule) {
+    let CharacterShape::Capsule { radius, .. } = sim.get::<Character>(character).shape else {
+        panic!("the depth oracle is for capsules");
+    };
+    let (transform, state) = (sim.get::<Transform>(character), sim.state(character));
+    let capsule = parry::shape::Capsule::new(
+        Vec3::Y * radius,
+        Vec3::Y * (state.height - radius).max(radius),
+        radius,
+    );
+    (
+        Pose::from_parts(transform.translation, transform.rotation),
+        capsule,
+    )
+}
+
+/// How deep a capsule character is in a collider's entity, metres; negative when apart or far.
+pub fn depth_in(sim: &Sim, character: Entity, other: Entity) -> f32 {
+    let (pose, capsule) = capsule_of(sim, character);
+    let (transform, collider) = (sim.get::<Transform>(other), sim.get::<Collider>(other));
+    let other = Pose::from_parts(transform.translation, transform.rotation);
+    match parry::query::contact(&pose, &capsule, &other, &*collider.raw, 0.5) {
+        Ok(Some(contact)) => -contact.dist,
+        Ok(None) => -0.5,
+        Err(error) => panic!("depth: {error}"),
+    }
+}
+
+/// How deep a capsule character is in the deepest of all fixed colliders, metres, and which that is.
+pub fn depth(sim: &mut Sim, character: Entity) -> (f32, Option<Entity>) {
+    let world = sim.app.world_mut();
+    let mut query = world.query::<(Entity, &RigidBody, &Collider)>();
+    let fixed: Vec<Entity> = query
+        .iter(world)
+        .filter(|(_, body, _)| **body == RigidBody::Fixed)
+        .map(|(entity, ..)| entity)
+        .collect();
+    fixed
+        .into_iter()
+        .map(|entity| (depth_in(sim, character, entity), Some(entity)))
+        .fold((-0.5, None), |a, b| if b.0 > a.0 { b } else { a })
+}
+
+/// Everything that happened, with the tick.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct EventLog {
+    pub landed: Vec<Landed>,
+    pub left: Vec<LeftGround>,
+    pub stepped: Vec<Stepped>,
+    pub hit: Vec<Hit>,
+    pub stance: Vec<StanceChanged>,
+    pub crushed: Vec<Crushed>,
+}
+
+/// Starts to record events.
+pub fn record(sim: &mut Sim) {
+    sim.app
+        .init_resource::<EventLog>()
+        .add_observer(|e: On<Landed>, mut log: ResMut<EventLog>| log.landed.push(*e))
+        .add_observer(|e: On<LeftGround>, mut log: ResMut<EventLog>| log.left.push(*e))
+        .add_observer(|e: On<Stepped>, mut log: ResMut<EventLog>| log.stepped.push(*e))
+        .add_observer(|e: On<Hit>, mut log: ResMut<EventLog>| log.hit.push(*e))
+        .add_observer(|e: On<StanceChanged>, mut log: ResMut<EventLog>| log.stance.push(*e))
+        .add_observer(|e: On<Crushed>, mut log: ResMut<EventLog>| log.crushed.push(*e));
+}
+
+/// What was recorded since the last call.
+pub fn take_events(sim: &mut Sim) -> EventLog {
+    core::mem::take(&mut *sim.app.world_mut().resource_mut::<EventLog>())
+}
+
+/// Tangents and normals of a slope of this angle (radians) that rises along `+X`.
+pub fn slope_axes(angle: f32) -> (Vec3, Vec3) {
+    let (sin, cos) = ops::sin_cos(angle);
+    (Vec3::new(cos, sin, 0.0), Vec3::new(-sin, cos, 0.0))
+}
+
+/// The foot of a capsule of this radius that rests on a slope of this angle (radians) at a point:
+/// its lowest point hangs free on the uphill side.
+pub fn foot_on_slope(point: Vec3, angle: f32, radius: f32) -> Vec3 {
+    let (_, normal) = slope_axes(angle);
+    point + normal * radius - Vec3::Y * radius
+}
