@@ -269,17 +269,14 @@ impl Solver<'_> {
             };
             let relative = rest - moved;
             let closing = -found.normal.dot(relative);
-            // A motion may close the gap that is there: it was bent to do no more.
-            let room = aside + found.distance.max(0.0);
-            let left = best - s;
-            if closing * left <= room {
+            if closing <= aside {
                 return None;
             }
             if found.distance <= HIT {
                 if !found.on_face {
                     match self.edge_on_the_way(&found, triangle) {
                         Edge::Real => {}
-                        Edge::Face(normal) if -normal.dot(relative) * left > room => {}
+                        Edge::Face(normal) if -normal.dot(relative) > aside => {}
                         Edge::Face(_) | Edge::Ghost => return None,
                     }
                 }
