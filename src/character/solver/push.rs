@@ -11,8 +11,11 @@
 
 use bevy::prelude::*;
 
-use super::Solver;
+use super::{Solver, TOUCH};
 use crate::backend::neighbourhood::ObstacleKind;
+
+/// Part of an overlap that a push undoes per tick.
+const PRESS: f32 = 0.8;
 
 /// An impulse for a body.
 #[derive(Clone, Copy, Debug)]
@@ -41,8 +44,15 @@ impl Solver<'_> {
         let n = touch.normal;
         let own = rest.dot(n) / (self.dt * (1.0 - t).max(1.0e-3));
         let other = body.velocity_at(touch.point).dot(n);
-        let closing = other - own;
-        if closing <= 1.0e-4 || self.impulses.iter().any(|known| known.obstacle == touch.obstacle) {
+        // What is pressed in by friction that slowed the body is pushed out again, not followed.
+        let pressed = (-touch.distance - TOUCH).max(0.0) * PRESS / self.dt;
+        let closing = other - own + pressed.min(1.0);
+        if closing <= 1.0e-4
+            || self
+                .impulses
+                .iter()
+                .any(|known| known.obstacle == touch.obstacle)
+        {
             return;
         }
         let mass = body.effective_mass(touch.point, n);
