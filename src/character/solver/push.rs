@@ -42,8 +42,19 @@ impl Solver<'_> {
             return;
         };
         let n = touch.normal;
+        let under_foot = n.dot(self.up) > 0.7;
+        // Whoever pushes a box does so at the height of its middle, as far as he reaches: there it
+        // slides instead of tipping, and what holds it from turning need not be known.
+        let point = if under_foot {
+            touch.point
+        } else {
+            let foot = self.pose.position.dot(self.up);
+            let tall = 2.0 * self.mover.middle;
+            let height = body.center.dot(self.up).clamp(foot + 0.1 * tall, foot + 0.9 * tall);
+            touch.point + self.up * (height - touch.point.dot(self.up))
+        };
         let own = rest.dot(n) / (self.dt * (1.0 - t).max(1.0e-3));
-        let other = body.velocity_at(touch.point).dot(n);
+        let other = body.velocity_at(point).dot(n);
         // What is pressed in by friction that slowed the body is pushed out again, not followed.
         let pressed = (-touch.distance - TOUCH).max(0.0) * PRESS / self.dt;
         let closing = other - own + pressed.min(1.0);
@@ -55,7 +66,11 @@ impl Solver<'_> {
         {
             return;
         }
-        let mass = body.effective_mass(touch.point, n);
+        let mass = if under_foot {
+            body.effective_mass(point, n)
+        } else {
+            body.effective_mass(body.center, n)
+        };
         let reduced = if mass >= f32::MAX {
             self.config.mass
         } else {
@@ -68,7 +83,6 @@ impl Solver<'_> {
         } else {
             0.0
         };
-        let under_foot = n.dot(self.up) > 0.7;
         let given = if under_foot {
             full - received
         } else {
@@ -78,7 +92,7 @@ impl Solver<'_> {
         if impulse == Vec3::ZERO {
             return;
         }
-        body.apply(impulse, touch.point);
+        body.apply(impulse, if under_foot { point } else { body.center });
         let (linear, turn) = (
             body.linear_velocity * self.dt,
             body.angular_velocity * self.dt,
@@ -99,7 +113,7 @@ impl Solver<'_> {
             obstacle: touch.obstacle,
             body: entity,
             impulse,
-            point: touch.point,
+            point,
         });
     }
 }
