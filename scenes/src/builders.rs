@@ -165,7 +165,14 @@ impl Sim {
     /// Spawns a straight vertical wall, 1 m thick as boxes, none as a mesh of 0.5 m squares.
     /// It starts at `start`, runs `length` along `along` (level, unit) and rises `height`; its face
     /// looks to the side of `along × up` (the right hand of one who looks along it).
-    pub fn wall(&mut self, make: Make, start: Vec3, along: Vec3, length: f32, height: f32) -> Entity {
+    pub fn wall(
+        &mut self,
+        make: Make,
+        start: Vec3,
+        along: Vec3,
+        length: f32,
+        height: f32,
+    ) -> Entity {
         let face = along.cross(Vec3::Y);
         match make {
             Make::Boxes => {
@@ -208,7 +215,11 @@ impl Sim {
             Make::Boxes => {
                 for i in -1..n {
                     let top = (i + 1) as f32 * stairs.rise;
-                    let start = if i < 0 { -stairs.landing } else { i as f32 * stairs.tread };
+                    let start = if i < 0 {
+                        -stairs.landing
+                    } else {
+                        i as f32 * stairs.tread
+                    };
                     let end = if i == n - 1 {
                         stairs.last_riser() + stairs.landing
                     } else {
@@ -225,7 +236,11 @@ impl Sim {
                 let z = Vec3::Z * w;
                 for i in -1..n {
                     let top = (i + 1) as f32 * stairs.rise;
-                    let start = if i < 0 { -stairs.landing } else { i as f32 * stairs.tread };
+                    let start = if i < 0 {
+                        -stairs.landing
+                    } else {
+                        i as f32 * stairs.tread
+                    };
                     let end = if i == n - 1 {
                         stairs.last_riser() + stairs.landing
                     } else {
@@ -241,11 +256,17 @@ impl Sim {
                 self.fixed(mesh.collider(), base);
             }
         }
-        let Some(ceiling) = stairs.ceiling else { return };
+        let Some(ceiling) = stairs.ceiling else {
+            return;
+        };
         for i in -1..n {
             let low = (i + 1) as f32 * stairs.rise + ceiling.free;
             let thick = stairs.rise + 0.2;
-            let start = if i < 0 { -stairs.landing } else { i as f32 * stairs.tread } - ceiling.lead;
+            let start = if i < 0 {
+                -stairs.landing
+            } else {
+                i as f32 * stairs.tread
+            } - ceiling.lead;
             let end = if i == n - 1 {
                 stairs.last_riser() + stairs.landing
             } else {
@@ -260,7 +281,14 @@ impl Sim {
 
     /// Spawns a ramp that rises along `+X` at `angle` radians through the point `through`, `length`
     /// long (half of it before that point) and `width` wide.
-    pub fn ramp(&mut self, make: Make, through: Vec3, angle: f32, length: f32, width: f32) -> Entity {
+    pub fn ramp(
+        &mut self,
+        make: Make,
+        through: Vec3,
+        angle: f32,
+        length: f32,
+        width: f32,
+    ) -> Entity {
         let rotation = Quat::from_rotation_z(angle);
         let at = Transform::from_translation(through).with_rotation(rotation);
         match make {

@@ -67,7 +67,11 @@ fn corner_held(make: Make) {
                 check(&mut found, &case, &held);
                 // It does go in.
                 let gap = sim.position(walker).distance(seat(angle));
-                found.at_most(format!("{case}: away from the seat"), gap, 0.022 / ops::sin(angle * 0.5));
+                found.at_most(
+                    format!("{case}: away from the seat"),
+                    gap,
+                    0.022 / ops::sin(angle * 0.5),
+                );
             }
         }
     }
@@ -99,7 +103,11 @@ fn running_into_a_corner_does_not_swing_from_wall_to_wall() {
             // One metre of run-up and the first touch; then the 200 ticks.
             sim.ticks((hz * 0.2).ceil() as usize);
             let held = hold(&mut sim, walker, Vec3::X, 200);
-            check(&mut found, &format!("{hz} Hz {degrees}° after a run"), &held);
+            check(
+                &mut found,
+                &format!("{hz} Hz {degrees}° after a run"),
+                &held,
+            );
         }
     }
 }
@@ -143,7 +151,11 @@ fn a_corner_that_turns_away_is_rounded_without_a_stop() {
             slowest = slowest.min(before.distance(sim.position(walker)) * hz as f32);
         }
         found.at_least(format!("{hz} Hz: slowest"), slowest, SPEED * ops::cos(0.8));
-        found.at_least(format!("{hz} Hz: past the corner"), sim.position(walker).x, 0.3);
+        found.at_least(
+            format!("{hz} Hz: past the corner"),
+            sim.position(walker).x,
+            0.3,
+        );
         found.at_most(format!("{hz} Hz: round it"), sim.position(walker).z, -0.5);
     }
 }
@@ -158,7 +170,8 @@ fn a_wedge_of_floor_and_low_ceiling_is_no_trap() {
         let tilt = Quat::from_rotation_z(-20f32.to_radians());
         sim.fixed(
             bevy_rapier3d::prelude::Collider::cuboid(5.0, 0.25, 5.0),
-            Transform::from_translation(Vec3::new(0.0, 2.2, 0.0) + tilt * Vec3::Y * 0.25).with_rotation(tilt),
+            Transform::from_translation(Vec3::new(0.0, 2.2, 0.0) + tilt * Vec3::Y * 0.25)
+                .with_rotation(tilt),
         );
         let walker = runner(&mut sim, Vec3::new(-3.0, 0.0, 0.0));
         sim.seconds(0.2);
@@ -172,7 +185,12 @@ fn a_wedge_of_floor_and_low_ceiling_is_no_trap() {
         let start = sim.position(walker).x;
         sim.walk(walker, Vec3::NEG_X);
         sim.seconds(0.4);
-        found.within(format!("{case}: way back"), start - sim.position(walker).x, 2.0, 0.01);
+        found.within(
+            format!("{case}: way back"),
+            start - sim.position(walker).x,
+            2.0,
+            0.01,
+        );
     }
 }
 
@@ -205,8 +223,16 @@ fn a_funnel_of_steep_walls_ends_the_fall() {
                 sim.ticks(1);
                 grounded += usize::from(sim.state(faller).on_ground());
             }
-            found.at_most(format!("{case}: creep"), before.distance(sim.position(faller)), 0.001);
-            found.at_least(format!("{case}: ticks on ground of 100"), grounded as f32, 100.0);
+            found.at_most(
+                format!("{case}: creep"),
+                before.distance(sim.position(faller)),
+                0.001,
+            );
+            found.at_least(
+                format!("{case}: ticks on ground of 100"),
+                grounded as f32,
+                100.0,
+            );
             let speed = sim.state(faller).velocity.length();
             found.at_most(format!("{case}: speed kept"), speed, 0.01);
             let (deep, _) = depth(&mut sim, faller);

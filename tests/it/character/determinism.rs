@@ -9,7 +9,10 @@ use bevy::{
     time::TimeUpdateStrategy,
 };
 use bevy_embody::prelude::*;
-use bevy_rapier3d::{prelude::*, rapier::dynamics::RigidBodySet};
+use bevy_rapier3d::{
+    prelude::*,
+    rapier::prelude::{ColliderSet, DefaultBroadPhase, IslandManager, NarrowPhase, RigidBodySet},
+};
 use embody_scenes::{Make, Mover, Patch, Sim, Stairs};
 
 use super::support::*;
@@ -59,9 +62,7 @@ fn level(sim: &mut Sim, turn: usize) -> Vec<Entity> {
             sim.floor(0.0);
         }),
         Box::new(|sim| {
-            let hills = Patch::terrain(40, 0.5, |x, z| {
-                0.4 * ops::sin(x) * ops::cos(z * 0.7)
-            });
+            let hills = Patch::terrain(40, 0.5, |x, z| 0.4 * ops::sin(x) * ops::cos(z * 0.7));
             sim.fixed(hills.collider(), Transform::from_xyz(-10.0, 0.2, 5.0));
         }),
         Box::new(|sim| {
@@ -94,7 +95,11 @@ fn level(sim: &mut Sim, turn: usize) -> Vec<Entity> {
         let at = Vec3::new(2.0 + 2.0 * i as f32, 0.3, -8.0);
         parts.push(Box::new(move |sim| {
             let mass = 5.0 * (i + 1) as f32;
-            let crate_ = sim.dynamic(Collider::cuboid(0.3, 0.3, 0.3), Transform::from_translation(at), mass);
+            let crate_ = sim.dynamic(
+                Collider::cuboid(0.3, 0.3, 0.3),
+                Transform::from_translation(at),
+                mass,
+            );
             insert(sim, crate_, Id(100 + i));
         }));
     }
@@ -120,7 +125,11 @@ fn script(sim: &mut Sim, crowd: &[Entity], tick: usize) {
             intent.movement = wish;
             intent.jump = (tick + i * 13) % 50 < 3;
             intent.sprint = i % 3 == 0;
-            intent.stance = if (tick / 60 + i) % 4 == 0 { Stance::Crouch } else { Stance::Stand };
+            intent.stance = if (tick / 60 + i) % 4 == 0 {
+                Stance::Crouch
+            } else {
+                Stance::Stand
+            };
         });
     }
 }
@@ -148,11 +157,19 @@ fn replays_give_equal_bits() {
         let first = replay(hz, 300, 0);
         for run in 0..2 {
             let again = replay(hz, 300, 0);
-            assert_eq!(first_difference(&first, &again), None, "{hz} Hz, run {run}, first tick that differs");
+            assert_eq!(
+                first_difference(&first, &again),
+                None,
+                "{hz} Hz, run {run}, first tick that differs"
+            );
         }
         let mut distinct = first.clone();
         distinct.dedup();
-        assert!(distinct.len() > 290, "the scene moves: {} of 300 ticks differ", distinct.len());
+        assert!(
+            distinct.len() > 290,
+            "the scene moves: {} of 300 ticks differ",
+            distinct.len()
+        );
     }
 }
 
@@ -177,7 +194,8 @@ fn the_number_of_ticks_in_a_frame_does_not_matter() {
     for per_frame in [1u32, 2, 4] {
         let mut sim = Sim::new(120.0);
         let crowd = level(&mut sim, 0);
-        sim.app.insert_resource(TimeUpdateStrategy::FixedTimesteps(per_frame));
+        sim.app
+            .insert_resource(TimeUpdateStrategy::FixedTimesteps(per_frame));
         // The script changes with frames of four ticks alone.
         for tick in (0..240).step_by(4) {
             script(&mut sim, &crowd, tick);
@@ -187,7 +205,10 @@ fn the_number_of_ticks_in_a_frame_does_not_matter() {
         }
         ends.push((per_frame, hash(&mut sim)));
     }
-    assert!(ends.iter().all(|end| end.1 == ends[0].1), "ticks per frame and hash: {ends:x?}");
+    assert!(
+        ends.iter().all(|end| end.1 == ends[0].1),
+        "ticks per frame and hash: {ends:x?}"
+    );
 }
 
 /// All that a rollback restores of a character.
@@ -199,18 +220,45 @@ fn restore(sim: &mut Sim, who: Entity, saved: &(Transform, CharacterState, Chara
     insert(sim, who, saved.clone());
 }
 
-/// The bodies of the physics world: a rollback restores them too.
-fn physics_bodies(sim: &mut Sim) -> &mut RigidBodySet {
+/// What of the physics world a rollback restores: what moves in it, and where queries find it.
+#[derive(Clone)]
+struct Physics {
+    bodies: RigidBodySet,
+    colliders: ColliderSet,
+    broad_phase: DefaultBroadPhase,
+    narrow_phase: NarrowPhase,
+    islands: IslandManager,
+}
+
+type Context = (
+    &'static mut RapierRigidBodySet,
+    &'static mut RapierContextColliders,
+    &'static mut RapierContextSimulation,
+);
+
+fn save_physics(sim: &mut Sim) -> Physics {
     let world = sim.app.world_mut();
-    let context = world
-        .query_filtered::<Entity, With<RapierRigidBodySet>>()
-        .single(world)
-        .expect("one physics world");
-    &mut world
-        .get_mut::<RapierRigidBodySet>(context)
-        .expect("it was just found")
-        .into_inner()
-        .bodies
+    let mut context = world.query::<Context>();
+    let (bodies, colliders, simulation) = context.single_mut(world).expect("one physics world");
+    Physics {
+        bodies: bodies.bodies.clone(),
+        colliders: colliders.colliders.clone(),
+        broad_phase: simulation.broad_phase.clone(),
+        narrow_phase: simulation.narrow_phase.clone(),
+        islands: simulation.islands.clone(),
+    }
+}
+
+fn restore_physics(sim: &mut Sim, physics: &Physics) {
+    let world = sim.app.world_mut();
+    let mut context = world.query::<Context>();
+    let (mut bodies, mut colliders, mut simulation) =
+        context.single_mut(world).expect("one physics world");
+    bodies.bodies = physics.bodies.clone();
+    colliders.colliders = physics.colliders.clone();
+    simulation.broad_phase = physics.broad_phase.clone();
+    simulation.narrow_phase = physics.narrow_phase.clone();
+    simulation.islands = physics.islands.clone();
 }
 
 /// A static level with a lift and a turntable, on which a save mid-way is restored.
@@ -230,7 +278,8 @@ fn save_course(sim: &mut Sim) -> (Entity, [Entity; 2]) {
             Transform::from_xyz(-20.0, (0.8 * (2.0 * t).sin()) as f32, 0.0)
         }),
         sim.mover(Collider::cylinder(0.1, 2.0), |t| {
-            Transform::from_xyz(-30.0, 0.0, 0.0).with_rotation(Quat::from_rotation_y((2.0 * t) as f32))
+            Transform::from_xyz(-30.0, 0.0, 0.0)
+                .with_rotation(Quat::from_rotation_y((2.0 * t) as f32))
         }),
     ];
     (runner(sim, Vec3::new(-2.0, 0.0, 0.0)), movers)
@@ -250,14 +299,17 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
             let (who, movers) = save_course(&mut sim);
             sim.place(who, foot);
             sim.seconds(0.2);
-            sim.walk(who, Vec3::X * if name.starts_with("on") { 0.1 } else { 1.0 });
+            sim.walk(
+                who,
+                Vec3::X * if name.starts_with("on") { 0.1 } else { 1.0 },
+            );
             sim.seconds(lead);
             let saved = save(&sim, who);
             let platforms = movers.map(|mover| {
                 let ticks = sim.app.world().get::<Mover>(mover).expect("a mover").ticks;
                 (mover, sim.get::<Transform>(mover), ticks)
             });
-            let bodies = physics_bodies(&mut sim).clone();
+            let physics = save_physics(&mut sim);
             let run = |sim: &mut Sim| -> Vec<_> {
                 (0..60)
                     .map(|tick| {
@@ -274,7 +326,7 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
                     insert(&mut sim, mover, transform);
                     edit::<Mover>(&mut sim, mover, |mover| mover.ticks = ticks);
                 }
-                *physics_bodies(&mut sim) = bodies.clone();
+                restore_physics(&mut sim, &physics);
                 let again = run(&mut sim);
                 let differ = first.iter().zip(&again).position(|(a, b)| a != b);
                 found.holds(
@@ -296,12 +348,16 @@ fn a_character_is_rebuilt_from_its_saved_text() {
         sim.walk(who, Vec3::X);
         sim.seconds(0.5);
         let state = serde_json::to_string(&sim.state(who)).expect("the state is plain data");
-        let config = serde_json::to_string(&sim.get::<Character>(who)).expect("the config is plain data");
-        let intent = serde_json::to_string(&sim.get::<CharacterIntent>(who)).expect("the intent is plain data");
+        let config =
+            serde_json::to_string(&sim.get::<Character>(who)).expect("the config is plain data");
+        let intent = serde_json::to_string(&sim.get::<CharacterIntent>(who))
+            .expect("the intent is plain data");
         // The motor has infinite accelerations, which text of this kind cannot hold.
-        let motor = serde_json::to_string(&CharacterMotor::default()).expect("the motor is plain data");
+        let motor =
+            serde_json::to_string(&CharacterMotor::default()).expect("the motor is plain data");
         let transform = sim.get::<Transform>(who);
-        let state_read: CharacterState = serde_json::from_str(&state).expect("reads what was written");
+        let state_read: CharacterState =
+            serde_json::from_str(&state).expect("reads what was written");
         found.holds(format!("{hz} Hz: state"), state_read == sim.state(who));
         found.holds(
             format!("{hz} Hz: config"),
@@ -324,8 +380,14 @@ fn a_character_is_rebuilt_from_its_saved_text() {
             transform,
         ));
         sim.seconds(0.5);
-        found.holds(format!("{hz} Hz: pose"), sim.get::<Transform>(heir) == wanted.0);
-        found.holds(format!("{hz} Hz: velocity"), sim.state(heir).velocity == wanted.1.velocity);
+        found.holds(
+            format!("{hz} Hz: pose"),
+            sim.get::<Transform>(heir) == wanted.0,
+        );
+        found.holds(
+            format!("{hz} Hz: velocity"),
+            sim.state(heir).velocity == wanted.1.velocity,
+        );
     }
 }
 
@@ -350,12 +412,19 @@ fn one_thread_or_two_give_equal_bits() {
     let runs = [1, 2, 4].map(|threads| {
         let path = env::temp_dir().join(format!("embody-threads-{}-{threads}", std::process::id()));
         let status = Command::new(&own)
-            .args(["--exact", "character::determinism::one_thread_or_two_give_equal_bits"])
+            .args([
+                "--exact",
+                "character::determinism::one_thread_or_two_give_equal_bits",
+            ])
             .env(THREADS, threads.to_string())
             .env(RESULT, &path)
             .output()
             .expect("the test binary can be started");
-        assert!(status.status.success(), "{}", String::from_utf8_lossy(&status.stdout));
+        assert!(
+            status.status.success(),
+            "{}",
+            String::from_utf8_lossy(&status.stdout)
+        );
         let hashes = fs::read_to_string(&path).expect("the other process has written its result");
         fs::remove_file(&path).expect("the result can be removed");
         assert_eq!(hashes.lines().count(), 300);
@@ -363,6 +432,9 @@ fn one_thread_or_two_give_equal_bits() {
     });
     for (run, threads) in runs[1..].iter().zip([2, 4]) {
         let differ = runs[0].lines().zip(run.lines()).position(|(a, b)| a != b);
-        assert_eq!(differ, None, "first tick in which {threads} threads differ from 1");
+        assert_eq!(
+            differ, None,
+            "first tick in which {threads} threads differ from 1"
+        );
     }
 }

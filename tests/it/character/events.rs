@@ -2,7 +2,7 @@
 
 use bevy::{math::ops, prelude::*};
 use bevy_embody::{
-    character::{StepResult, StepAttempt},
+    character::{StepAttempt, StepResult},
     prelude::*,
 };
 use bevy_rapier3d::prelude::*;
@@ -22,12 +22,27 @@ fn a_landing_tells_the_ground_the_speed_and_the_time_in_the_air() {
             sim.seconds(3.0);
             let log = take_events(&mut sim);
             let case = format!("{hz} Hz from {height} m");
-            found.near(format!("{case}: landings"), log.landed.len() as f32, 1.0, 0.0);
+            found.near(
+                format!("{case}: landings"),
+                log.landed.len() as f32,
+                1.0,
+                0.0,
+            );
             if let Some(landed) = log.landed.first() {
                 found.holds(format!("{case}: entity"), landed.entity == who);
                 found.holds(format!("{case}: ground"), landed.ground == floor);
-                found.near(format!("{case}: speed"), landed.speed, ops::sqrt(2.0 * G * height), G * 1.5 / hz as f32);
-                found.near(format!("{case}: time"), landed.air_time, ops::sqrt(2.0 * height / G), 2.0 / hz as f32);
+                found.near(
+                    format!("{case}: speed"),
+                    landed.speed,
+                    ops::sqrt(2.0 * G * height),
+                    G * 1.5 / hz as f32,
+                );
+                found.near(
+                    format!("{case}: time"),
+                    landed.air_time,
+                    ops::sqrt(2.0 * height / G),
+                    2.0 / hz as f32,
+                );
             }
         }
     }
@@ -51,13 +66,27 @@ fn leaving_the_ground_tells_whether_it_was_a_jump() {
         sim.seconds(1.5);
         let log = take_events(&mut sim);
         let case = format!("{hz} Hz {:?}", log.left);
-        found.near(format!("{case}: times left"), log.left.len() as f32, 2.0, 0.0);
+        found.near(
+            format!("{case}: times left"),
+            log.left.len() as f32,
+            2.0,
+            0.0,
+        );
         if let [jump, fall] = log.left[..] {
-            found.holds(format!("{case}: a jump"), jump.jumped && jump.ground == Some(block));
-            found.holds(format!("{case}: a fall"), !fall.jumped && fall.ground == Some(block));
+            found.holds(
+                format!("{case}: a jump"),
+                jump.jumped && jump.ground == Some(block),
+            );
+            found.holds(
+                format!("{case}: a fall"),
+                !fall.jumped && fall.ground == Some(block),
+            );
         }
         let grounds: Vec<Entity> = log.landed.iter().map(|landed| landed.ground).collect();
-        found.holds(format!("{case}: landed {grounds:?}"), grounds.ends_with(&[block, floor]));
+        found.holds(
+            format!("{case}: landed {grounds:?}"),
+            grounds.ends_with(&[block, floor]),
+        );
     }
 }
 
@@ -93,21 +122,43 @@ fn a_hit_tells_point_normal_and_speed_once_when_it_begins() {
         take_events(&mut sim);
         sim.walk(who, heading(-30.0));
         sim.seconds(1.0);
-        let hits: Vec<Hit> = take_events(&mut sim).hit.into_iter().filter(|hit| hit.other == wall).collect();
+        let hits: Vec<Hit> = take_events(&mut sim)
+            .hit
+            .into_iter()
+            .filter(|hit| hit.other == wall)
+            .collect();
         let case = format!("{hz} Hz");
-        found.near(format!("{case}: hits while it glides on"), hits.len() as f32, 1.0, 0.0);
+        found.near(
+            format!("{case}: hits while it glides on"),
+            hits.len() as f32,
+            1.0,
+            0.0,
+        );
         if let Some(hit) = hits.first() {
             found.holds(format!("{case}: entity"), hit.entity == who);
             found.near(format!("{case}: point x"), hit.point.x, 3.0, 0.01);
-            found.at_most(format!("{case}: normal"), hit.normal.distance(Vec3::NEG_X), 1e-3);
-            found.within(format!("{case}: closing speed"), hit.speed, SPEED * ops::cos(30f32.to_radians()), 0.01);
+            found.at_most(
+                format!("{case}: normal"),
+                hit.normal.distance(Vec3::NEG_X),
+                1e-3,
+            );
+            found.within(
+                format!("{case}: closing speed"),
+                hit.speed,
+                SPEED * ops::cos(30f32.to_radians()),
+                0.01,
+            );
         }
         // Away and again.
         sim.walk(who, Vec3::NEG_X);
         sim.seconds(0.3);
         sim.walk(who, Vec3::X);
         sim.seconds(0.5);
-        let again = take_events(&mut sim).hit.iter().filter(|hit| hit.other == wall).count();
+        let again = take_events(&mut sim)
+            .hit
+            .iter()
+            .filter(|hit| hit.other == wall)
+            .count();
         found.near(format!("{case}: second time"), again as f32, 1.0, 0.0);
     }
 }
@@ -120,8 +171,16 @@ fn a_hit_on_a_body_tells_the_impulse_it_received() {
         record(&mut sim);
         let floor = sim.floor(0.0);
         insert(&mut sim, floor, Friction::coefficient(0.0));
-        let crate_ = sim.dynamic(Collider::cuboid(0.5, 0.5, 0.5), Transform::from_xyz(2.0, 0.5, 0.0), 200.0);
-        insert(&mut sim, crate_, (Friction::coefficient(0.0), LockedAxes::ROTATION_LOCKED));
+        let crate_ = sim.dynamic(
+            Collider::cuboid(0.5, 0.5, 0.5),
+            Transform::from_xyz(2.0, 0.5, 0.0),
+            200.0,
+        );
+        insert(
+            &mut sim,
+            crate_,
+            (Friction::coefficient(0.0), LockedAxes::ROTATION_LOCKED),
+        );
         let who = runner(&mut sim, Vec3::ZERO);
         sim.seconds(0.5);
         sim.walk(who, Vec3::X);
@@ -141,8 +200,14 @@ fn a_hit_on_a_body_tells_the_impulse_it_received() {
         let case = format!("{hz} Hz");
         found.within(format!("{case}: sum of impulses"), sum, momentum, 0.02);
         found.at_least(format!("{case}: momentum"), momentum, 100.0);
-        let hit = take_events(&mut sim).hit.into_iter().find(|hit| hit.other == crate_);
-        found.holds(format!("{case}: hit {hit:?}"), hit.is_some_and(|hit| hit.impulse.x > 0.0));
+        let hit = take_events(&mut sim)
+            .hit
+            .into_iter()
+            .find(|hit| hit.other == crate_);
+        found.holds(
+            format!("{case}: hit {hit:?}"),
+            hit.is_some_and(|hit| hit.impulse.x > 0.0),
+        );
     }
 }
 
@@ -164,19 +229,44 @@ fn contacts_list_floor_and_walls_with_their_planes() {
             ("wall", wall, Vec3::NEG_X),
             ("side", side, Vec3::NEG_Z),
         ] {
-            match contacts.contacts.iter().find(|contact| contact.entity == entity) {
+            match contacts
+                .contacts
+                .iter()
+                .find(|contact| contact.entity == entity)
+            {
                 Some(contact) => {
-                    found.at_most(format!("{case}: normal of {name}"), contact.normal.distance(normal), 1e-3);
-                    found.near(format!("{case}: distance of {name}"), contact.distance, 0.0, 0.025);
+                    found.at_most(
+                        format!("{case}: normal of {name}"),
+                        contact.normal.distance(normal),
+                        1e-3,
+                    );
+                    found.near(
+                        format!("{case}: distance of {name}"),
+                        contact.distance,
+                        0.0,
+                        0.025,
+                    );
                     let on = contact.point.dot(normal) - if name == "floor" { 0.0 } else { -0.3 };
                     found.near(format!("{case}: point on {name}"), on, 0.0, 0.01);
                 }
                 None => found.holds(format!("{case}: {name} is listed"), false),
             }
         }
-        let blocked = |entity| contacts.contacts.iter().any(|c| c.entity == entity && c.blocked);
-        found.holds(format!("{case}: walls block"), blocked(wall) && blocked(side));
-        found.at_least(format!("{case}: queries counted"), contacts.queries as f32, 1.0);
+        let blocked = |entity| {
+            contacts
+                .contacts
+                .iter()
+                .any(|c| c.entity == entity && c.blocked)
+        };
+        found.holds(
+            format!("{case}: walls block"),
+            blocked(wall) && blocked(side),
+        );
+        found.at_least(
+            format!("{case}: queries counted"),
+            contacts.queries as f32,
+            1.0,
+        );
         // No contact in the air.
         sim.place(who, Vec3::new(-3.0, 20.0, -3.0));
         sim.ticks(2);
@@ -192,24 +282,48 @@ fn ground_state_tells_entity_normal_point_velocity_and_material() {
         let mut sim = Sim::new(hz);
         let angle = 20f32.to_radians();
         let ramp = sim.ramp(embody_scenes::Make::Boxes, Vec3::ZERO, angle, 30.0, 10.0);
-        insert(&mut sim, ramp, (Friction::coefficient(0.83), Restitution::coefficient(0.21)));
+        insert(
+            &mut sim,
+            ramp,
+            (Friction::coefficient(0.83), Restitution::coefficient(0.21)),
+        );
         let who = runner(&mut sim, foot_on_slope(Vec3::ZERO, angle, 0.3));
         sim.seconds(0.5);
         let ground = sim.state(who).ground;
         let (_, normal) = slope_axes(angle);
         let case = format!("{hz} Hz");
-        found.holds(format!("{case}: state"), ground.state == GroundState::OnGround);
+        found.holds(
+            format!("{case}: state"),
+            ground.state == GroundState::OnGround,
+        );
         found.holds(format!("{case}: entity"), ground.entity == Some(ramp));
-        found.at_most(format!("{case}: normal off"), ground.normal.distance(normal), 1e-3);
+        found.at_most(
+            format!("{case}: normal off"),
+            ground.normal.distance(normal),
+            1e-3,
+        );
         found.at_most(format!("{case}: point off"), ground.point.length(), 0.01);
         found.at_most(format!("{case}: velocity"), ground.velocity.length(), 1e-3);
-        found.near(format!("{case}: friction"), ground.material.friction, 0.83, 1e-6);
-        found.near(format!("{case}: restitution"), ground.material.restitution, 0.21, 1e-6);
+        found.near(
+            format!("{case}: friction"),
+            ground.material.friction,
+            0.83,
+            1e-6,
+        );
+        found.near(
+            format!("{case}: restitution"),
+            ground.material.restitution,
+            0.21,
+            1e-6,
+        );
         found.near(format!("{case}: grip"), ground.material.grip, 1.0, 1e-6);
         sim.place(who, Vec3::Y * 30.0);
         sim.ticks(2);
         let air = sim.state(who).ground;
-        found.holds(format!("{case}: in the air"), air.state == GroundState::InAir && air.entity.is_none());
+        found.holds(
+            format!("{case}: in the air"),
+            air.state == GroundState::InAir && air.entity.is_none(),
+        );
     }
 }
 
@@ -236,7 +350,11 @@ fn a_refused_step_tells_why() {
         (
             "dynamic",
             |sim| {
-                sim.dynamic(Collider::cuboid(1.0, 0.15, 5.0), Transform::from_xyz(2.0, 0.15, 0.0), 9000.0);
+                sim.dynamic(
+                    Collider::cuboid(1.0, 0.15, 5.0),
+                    Transform::from_xyz(2.0, 0.15, 0.0),
+                    9000.0,
+                );
             },
             |result| matches!(result, StepResult::Dynamic),
         ),
@@ -257,9 +375,16 @@ fn a_refused_step_tells_why() {
             let case = format!("{hz} Hz {name}");
             match seen.last() {
                 Some(attempt) => {
-                    found.holds(format!("{case}: {:?}", attempt.result), right(&attempt.result));
+                    found.holds(
+                        format!("{case}: {:?}", attempt.result),
+                        right(&attempt.result),
+                    );
                     found.near(format!("{case}: point"), attempt.point.x, 1.0, 0.03);
-                    found.at_most(format!("{case}: direction"), attempt.direction.distance(Vec3::X), 0.01);
+                    found.at_most(
+                        format!("{case}: direction"),
+                        attempt.direction.distance(Vec3::X),
+                        0.01,
+                    );
                 }
                 None => found.holds(format!("{case}: an attempt is told"), false),
             }
@@ -303,6 +428,9 @@ fn nothing_happens_to_one_who_stands_still() {
         sim.seconds(3.0);
         let log = take_events(&mut sim);
         found.holds(format!("{hz} Hz: {log:?}"), log == EventLog::default());
-        found.holds(format!("{hz} Hz: not moved by a bit"), sim.position(who) == before);
+        found.holds(
+            format!("{hz} Hz: not moved by a bit"),
+            sim.position(who) == before,
+        );
     }
 }

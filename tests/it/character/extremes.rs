@@ -28,7 +28,13 @@ fn shoot(hz: f64, speed: f32, wall: &Collider, degrees: f32, floor: bool) -> f32
 #[test]
 fn nothing_is_fast_enough_to_pass_a_wall_a_millimetre_thick() {
     let mut found = Findings::new();
-    let sheet = Patch::new(Vec3::new(0.0, -400.0, -400.0), Vec3::Z * 800.0, Vec3::Y * 800.0, 7, 7);
+    let sheet = Patch::new(
+        Vec3::new(0.0, -400.0, -400.0),
+        Vec3::Z * 800.0,
+        Vec3::Y * 800.0,
+        7,
+        7,
+    );
     let walls = [
         ("box", Collider::cuboid(0.0005, 400.0, 400.0)),
         ("mesh", sheet.collider()),
@@ -39,7 +45,8 @@ fn nothing_is_fast_enough_to_pass_a_wall_a_millimetre_thick() {
                 for degrees in [0.0, 40.0, 75.0] {
                     for floor in [true, false] {
                         let far = shoot(hz, speed, wall, degrees, floor);
-                        let case = format!("{hz} Hz {name} {speed} m/s at {degrees}° floor {floor}");
+                        let case =
+                            format!("{hz} Hz {name} {speed} m/s at {degrees}° floor {floor}");
                         found.at_most(format!("{case}: came to x"), far, 2.7 + 0.0015);
                         if degrees == 0.0 {
                             found.at_least(format!("{case}: came to x"), far, 2.7 - 0.025);
@@ -58,21 +65,35 @@ fn a_fall_at_300_metres_per_second_ends_on_a_floor_a_millimetre_thick() {
         for mesh in [true, false] {
             let mut sim = Sim::new(hz);
             if mesh {
-                let sheet = Patch::new(Vec3::new(-50.0, 0.0, -50.0), Vec3::Z * 100.0, Vec3::X * 100.0, 3, 3);
+                let sheet = Patch::new(
+                    Vec3::new(-50.0, 0.0, -50.0),
+                    Vec3::Z * 100.0,
+                    Vec3::X * 100.0,
+                    3,
+                    3,
+                );
                 sim.fixed(sheet.collider(), Transform::IDENTITY);
             } else {
                 sim.block(Vec3::NEG_Y * 0.0005, Vec3::new(100.0, 0.001, 100.0));
             }
             let faller = sim.spawn((
                 Character::default(),
-                CharacterMotor { max_fall_speed: 300.0, ..default() },
+                CharacterMotor {
+                    max_fall_speed: 300.0,
+                    ..default()
+                },
                 Transform::from_xyz(0.3, 40.0, 0.2),
             ));
             sim.ticks(2);
             set_velocity(&mut sim, faller, Vec3::NEG_Y * 300.0);
             sim.seconds(1.0);
             let case = format!("{hz} Hz mesh {mesh}");
-            found.near(format!("{case}: height"), sim.position(faller).y, 0.0, 0.002);
+            found.near(
+                format!("{case}: height"),
+                sim.position(faller).y,
+                0.0,
+                0.002,
+            );
             found.holds(format!("{case}: on ground"), sim.state(faller).on_ground());
         }
     }
@@ -90,7 +111,8 @@ fn a_wall_that_closes_crushes_and_lets_go_again() {
             let fixed = sim.block(Vec3::new(0.8, 2.0, 0.0), Vec3::new(1.0, 4.0, 8.0));
             let open = 4.0;
             let door = sim.mover(Collider::cuboid(0.5, 2.0, 4.0), move |t| {
-                let closed = (speed * t).min(open) - (speed * (t - open / speed - 1.0)).clamp(0.0, open);
+                let closed =
+                    (speed * t).min(open) - (speed * (t - open / speed - 1.0)).clamp(0.0, open);
                 Transform::from_xyz((-0.5 + 0.2 - open + closed) as f32, 2.0, 0.0)
             });
             let who = runner(&mut sim, Vec3::new(-0.2, 0.0, 0.0));
@@ -106,7 +128,10 @@ fn a_wall_that_closes_crushes_and_lets_go_again() {
             if let Some(told) = told.first() {
                 found.holds(format!("{case}: entity"), told.entity == who);
                 found.holds(format!("{case}: by the door"), told.by == door);
-                found.holds(format!("{case}: against the wall"), told.against == Some(fixed));
+                found.holds(
+                    format!("{case}: against the wall"),
+                    told.against == Some(fixed),
+                );
                 found.at_least(format!("{case}: depth told"), told.depth, 0.0);
             }
             found.at_least(format!("{case}: ticks crushed"), crushed_ticks as f32, 1.0);
@@ -122,7 +147,12 @@ fn a_wall_that_closes_crushes_and_lets_go_again() {
             sim.walk(who, Vec3::Z);
             let start = sim.position(who).z;
             sim.seconds(0.5);
-            found.within(format!("{case}: walks again"), sim.position(who).z - start, 2.5, 0.02);
+            found.within(
+                format!("{case}: walks again"),
+                sim.position(who).z - start,
+                2.5,
+                0.02,
+            );
         }
     }
 }
@@ -149,7 +179,8 @@ fn a_lift_crushes_against_a_ceiling_and_not_through_it() {
             found.near(format!("{case}: Crushed told"), told.len() as f32, 1.0, 0.0);
             found.holds(
                 format!("{case}: by the lift against the roof"),
-                told.first().is_some_and(|c| c.by == lift && c.against == Some(roof)),
+                told.first()
+                    .is_some_and(|c| c.by == lift && c.against == Some(roof)),
             );
             found.at_most(format!("{case}: deepest in the roof"), deep, 0.001);
             found.holds(format!("{case}: finite"), finite(&sim, who));
@@ -162,12 +193,18 @@ fn a_character_that_starts_inside_a_box_comes_out_at_the_recovery_speed() {
     let mut found = Findings::new();
     for hz in RATES {
         for recovery in [0.5, 3.0] {
-            for (name, push, velocity) in [("idle", Vec3::ZERO, Vec3::ZERO), ("pushing in", Vec3::NEG_X, Vec3::NEG_X * SPEED)] {
+            for (name, push, velocity) in [
+                ("idle", Vec3::ZERO, Vec3::ZERO),
+                ("pushing in", Vec3::NEG_X, Vec3::NEG_X * SPEED),
+            ] {
                 let mut sim = Sim::new(hz);
                 sim.floor(0.0);
                 let block = sim.block(Vec3::new(-1.0, 2.0, 0.0), Vec3::new(2.0, 4.0, 10.0));
                 // 0.2 m deep: the face is at x = 0.
-                let character = Character { recovery_speed: recovery, ..default() };
+                let character = Character {
+                    recovery_speed: recovery,
+                    ..default()
+                };
                 let who = sim.spawn((character, prompt(), Transform::from_xyz(0.1, 0.0, 0.0)));
                 sim.walk(who, push);
                 let mut fastest: f32 = 0.0;
@@ -183,7 +220,11 @@ fn a_character_that_starts_inside_a_box_comes_out_at_the_recovery_speed() {
                 found.at_most(format!("{case}: depth"), depth_in(&sim, who, block), 0.001);
                 found.near(format!("{case}: x"), sim.position(who).x, 0.3, 0.025);
                 found.near(format!("{case}: height"), sim.position(who).y, 0.0, 0.002);
-                found.at_most(format!("{case}: launched"), sim.state(who).velocity.length(), 0.01);
+                found.at_most(
+                    format!("{case}: launched"),
+                    sim.state(who).velocity.length(),
+                    0.01,
+                );
             }
         }
     }
@@ -220,7 +261,8 @@ fn a_start_inside_anything_ends_outside_or_at_rest() {
                     for i in 0..4 {
                         for j in 0..11 {
                             for k in 0..11 {
-                                let at = Vec3::new(j as f32 - 5.0, i as f32 + 0.5, k as f32 - 5.0) * 0.25;
+                                let at = Vec3::new(j as f32 - 5.0, i as f32 + 0.5, k as f32 - 5.0)
+                                    * 0.25;
                                 sim.block(at, Vec3::splat(0.2));
                             }
                         }
@@ -245,10 +287,18 @@ fn a_start_inside_anything_ends_outside_or_at_rest() {
             found.holds(format!("{case}: finite"), always_finite);
             // Recovery is at 3 m/s; a fall from the top of the box adds some.
             found.at_most(format!("{case}: fastest"), farthest, 8.0);
-            found.at_least(format!("{case}: above the floor"), sim.position(who).y, -0.002);
+            found.at_least(
+                format!("{case}: above the floor"),
+                sim.position(who).y,
+                -0.002,
+            );
             let before = sim.position(who);
             sim.seconds(1.0);
-            found.at_most(format!("{case}: at rest"), sim.position(who).distance(before), 0.01);
+            found.at_most(
+                format!("{case}: at rest"),
+                sim.position(who).distance(before),
+                0.01,
+            );
         }
     }
 }
@@ -287,7 +337,12 @@ fn a_kilometre_below_the_world_a_character_just_falls() {
         found.holds(format!("{hz} Hz: finite"), finite(&sim, who));
         // The fall is limited to 100 m/s, reached after 10.2 s and 510 m.
         let wanted = -1000.0 - 509.7 - 100.0 * (20.0 - 10.194);
-        found.within(format!("{hz} Hz: fell to"), sim.position(who).y, wanted, 0.01);
+        found.within(
+            format!("{hz} Hz: fell to"),
+            sim.position(who).y,
+            wanted,
+            0.01,
+        );
         found.holds(
             format!("{hz} Hz: in the air"),
             sim.state(who).ground.state == GroundState::InAir,
@@ -297,7 +352,13 @@ fn a_kilometre_below_the_world_a_character_just_falls() {
 
 /// Runs a scene with one bad thing in it: it must stay finite, tell about it at most once, and work
 /// again when the bad thing is mended.
-fn bad(found: &mut Findings, name: &str, spoil: impl Fn(&mut Sim, Entity), mend: impl Fn(&mut Sim, Entity), warned: bool) {
+fn bad(
+    found: &mut Findings,
+    name: &str,
+    spoil: impl Fn(&mut Sim, Entity),
+    mend: impl Fn(&mut Sim, Entity),
+    warned: bool,
+) {
     for hz in [30.0, 240.0] {
         let mut sim = Sim::new(hz);
         warnings::unique_entities(&mut sim);
@@ -319,12 +380,21 @@ fn bad(found: &mut Findings, name: &str, spoil: impl Fn(&mut Sim, Entity), mend:
         if warned {
             found.at_least(format!("{case}: warnings"), told.len() as f32, 1.0);
         }
-        found.at_most(format!("{case}: warnings about another"), warnings::about(other).len() as f32, 0.0);
+        found.at_most(
+            format!("{case}: warnings about another"),
+            warnings::about(other).len() as f32,
+            0.0,
+        );
         // The rest of the world goes on.
         let before = sim.position(other).x;
         sim.walk(other, Vec3::X);
         sim.seconds(0.5);
-        found.within(format!("{case}: another walks"), sim.position(other).x - before, 2.5, 0.001);
+        found.within(
+            format!("{case}: another walks"),
+            sim.position(other).x - before,
+            2.5,
+            0.001,
+        );
         // Mended, it works.
         mend(&mut sim, who);
         sim.seconds(0.5);
@@ -332,7 +402,12 @@ fn bad(found: &mut Findings, name: &str, spoil: impl Fn(&mut Sim, Entity), mend:
         let before = sim.position(who);
         sim.walk(who, Vec3::X);
         sim.seconds(0.5);
-        found.within(format!("{case}: walks when mended"), sim.position(who).x - before.x, 2.5, 0.01);
+        found.within(
+            format!("{case}: walks when mended"),
+            sim.position(who).x - before.x,
+            2.5,
+            0.01,
+        );
     }
 }
 
@@ -344,7 +419,12 @@ fn an_intent_that_is_no_number_is_refused_once_and_recovered_from() {
             bad(
                 &mut found,
                 &format!("movement {value} {axis}"),
-                |sim, who| sim.walk(who, Vec3::select(axis.cmpgt(Vec3::ZERO), Vec3::splat(value), Vec3::ZERO)),
+                |sim, who| {
+                    sim.walk(
+                        who,
+                        Vec3::select(axis.cmpgt(Vec3::ZERO), Vec3::splat(value), Vec3::ZERO),
+                    )
+                },
                 |sim, who| sim.walk(who, Vec3::ZERO),
                 value.is_nan(),
             );
@@ -369,15 +449,62 @@ fn an_intent_that_is_no_number_is_refused_once_and_recovered_from() {
 fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from() {
     type Spoil = fn(&mut Character, f32);
     let fields: [(&str, Spoil, &[f32]); 9] = [
-        ("radius", |c, v| c.shape = CharacterShape::Capsule { radius: v, height: 1.8 }, &[f32::NAN, f32::INFINITY, 0.0, -1.0]),
-        ("height", |c, v| c.shape = CharacterShape::Capsule { radius: 0.3, height: v }, &[f32::NAN, f32::INFINITY, 0.0, -1.0]),
-        ("max_slope", |c, v| c.max_slope = v, &[f32::NAN, f32::INFINITY, -0.1]),
-        ("step height", |c, v| c.step = Some(StepConfig { height: v, ..default() }), &[f32::NAN, f32::INFINITY, -1.0]),
-        ("ground_snap", |c, v| c.ground_snap = v, &[f32::NAN, f32::INFINITY, -1.0]),
-        ("recovery_speed", |c, v| c.recovery_speed = v, &[f32::NAN, -1.0]),
+        (
+            "radius",
+            |c, v| {
+                c.shape = CharacterShape::Capsule {
+                    radius: v,
+                    height: 1.8,
+                }
+            },
+            &[f32::NAN, f32::INFINITY, 0.0, -1.0],
+        ),
+        (
+            "height",
+            |c, v| {
+                c.shape = CharacterShape::Capsule {
+                    radius: 0.3,
+                    height: v,
+                }
+            },
+            &[f32::NAN, f32::INFINITY, 0.0, -1.0],
+        ),
+        (
+            "max_slope",
+            |c, v| c.max_slope = v,
+            &[f32::NAN, f32::INFINITY, -0.1],
+        ),
+        (
+            "step height",
+            |c, v| {
+                c.step = Some(StepConfig {
+                    height: v,
+                    ..default()
+                })
+            },
+            &[f32::NAN, f32::INFINITY, -1.0],
+        ),
+        (
+            "ground_snap",
+            |c, v| c.ground_snap = v,
+            &[f32::NAN, f32::INFINITY, -1.0],
+        ),
+        (
+            "recovery_speed",
+            |c, v| c.recovery_speed = v,
+            &[f32::NAN, -1.0],
+        ),
         ("mass", |c, v| c.mass = v, &[f32::NAN, f32::INFINITY, -1.0]),
-        ("push_strength", |c, v| c.push_strength = v, &[f32::NAN, -1.0]),
-        ("step_smoothing", |c, v| c.step_smoothing = v, &[f32::NAN, -1.0]),
+        (
+            "push_strength",
+            |c, v| c.push_strength = v,
+            &[f32::NAN, -1.0],
+        ),
+        (
+            "step_smoothing",
+            |c, v| c.step_smoothing = v,
+            &[f32::NAN, -1.0],
+        ),
     ];
     let mut found = Findings::new();
     for (field, spoil, values) in fields {
@@ -386,7 +513,9 @@ fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from
                 &mut found,
                 &format!("{field} = {value}"),
                 |sim, who| edit::<Character>(sim, who, |character| spoil(character, value)),
-                |sim, who| edit::<Character>(sim, who, |character| *character = Character::default()),
+                |sim, who| {
+                    edit::<Character>(sim, who, |character| *character = Character::default())
+                },
                 value.is_nan() || value < 0.0 || field == "radius" || field == "height",
             );
         }
@@ -436,7 +565,11 @@ fn a_transform_or_velocity_that_is_no_number_is_recovered_from() {
         bad(
             &mut found,
             &format!("rotation {value}"),
-            |sim, who| edit::<Transform>(sim, who, |t| t.rotation = Quat::from_xyzw(value, 0.0, 0.0, 1.0)),
+            |sim, who| {
+                edit::<Transform>(sim, who, |t| {
+                    t.rotation = Quat::from_xyzw(value, 0.0, 0.0, 1.0)
+                })
+            },
             |sim, who| edit::<Transform>(sim, who, |t| *t = Transform::IDENTITY),
             false,
         );
@@ -467,9 +600,17 @@ fn paused_time_changes_nothing_and_then_goes_on() {
         }
         found.holds(format!("{hz} Hz: position"), sim.position(who) == before);
         found.holds(format!("{hz} Hz: state"), sim.state(who) == state);
-        sim.app.world_mut().resource_mut::<Time<Virtual>>().unpause();
+        sim.app
+            .world_mut()
+            .resource_mut::<Time<Virtual>>()
+            .unpause();
         sim.seconds(0.5);
-        found.within(format!("{hz} Hz: goes on"), sim.position(who).x - before.x, 2.5, 0.001);
+        found.within(
+            format!("{hz} Hz: goes on"),
+            sim.position(who).x - before.x,
+            2.5,
+            0.001,
+        );
     }
 }
 
@@ -506,13 +647,17 @@ fn vanish(sim: &mut Sim, entity: Entity, whole: bool, when: When) {
         When::AfterSync => {
             sim.app.add_systems(
                 FixedPostUpdate,
-                take_away.after(PhysicsSet::SyncBackend).before(EmbodySystems::Drive),
+                take_away
+                    .after(PhysicsSet::SyncBackend)
+                    .before(EmbodySystems::Drive),
             );
         }
         When::AfterDrive => {
             sim.app.add_systems(
                 FixedPostUpdate,
-                take_away.after(EmbodySystems::Drive).before(PhysicsSet::StepSimulation),
+                take_away
+                    .after(EmbodySystems::Drive)
+                    .before(PhysicsSet::StepSimulation),
             );
         }
     }
@@ -522,7 +667,12 @@ fn vanish(sim: &mut Sim, entity: Entity, whole: bool, when: When) {
 fn a_platform_or_pushed_body_or_collider_may_vanish_at_any_moment() {
     let mut found = Findings::new();
     for hz in RATES {
-        for when in [When::Between, When::FixedUpdate, When::AfterSync, When::AfterDrive] {
+        for when in [
+            When::Between,
+            When::FixedUpdate,
+            When::AfterSync,
+            When::AfterDrive,
+        ] {
             for whole in [true, false] {
                 for what in ["lift", "crate", "crate stood on"] {
                     let mut sim = Sim::new(hz);
@@ -531,15 +681,28 @@ fn a_platform_or_pushed_body_or_collider_may_vanish_at_any_moment() {
                     let lift = sim.mover(Collider::cuboid(5.0, 0.25, 5.0), |t| {
                         Transform::from_xyz(t as f32, -0.25, 0.0)
                     });
-                    let crate_ = sim.dynamic(Collider::cuboid(0.5, 0.5, 0.5), Transform::from_xyz(1.0, 0.5, 0.0), 50.0);
-                    let foot = if what == "crate stood on" { Vec3::new(1.0, 1.0, 0.0) } else { Vec3::ZERO };
+                    let crate_ = sim.dynamic(
+                        Collider::cuboid(0.5, 0.5, 0.5),
+                        Transform::from_xyz(1.0, 0.5, 0.0),
+                        50.0,
+                    );
+                    let foot = if what == "crate stood on" {
+                        Vec3::new(1.0, 1.0, 0.0)
+                    } else {
+                        Vec3::ZERO
+                    };
                     let who = runner(&mut sim, foot);
                     sim.seconds(0.5);
                     if what == "crate" {
                         sim.walk(who, Vec3::X * 0.5);
                         sim.seconds(0.3);
                     }
-                    vanish(&mut sim, if what == "lift" { lift } else { crate_ }, whole, when);
+                    vanish(
+                        &mut sim,
+                        if what == "lift" { lift } else { crate_ },
+                        whole,
+                        when,
+                    );
                     let mut always = true;
                     for _ in 0..(hz * 1.5) as usize {
                         sim.ticks(1);
@@ -548,7 +711,12 @@ fn a_platform_or_pushed_body_or_collider_may_vanish_at_any_moment() {
                     let case = format!("{hz} Hz {what} whole {whole} {when:?}");
                     found.holds(format!("{case}: finite"), always);
                     if what == "lift" {
-                        found.near(format!("{case}: fell to the floor"), sim.position(who).y, -5.0, 0.01);
+                        found.near(
+                            format!("{case}: fell to the floor"),
+                            sim.position(who).y,
+                            -5.0,
+                            0.01,
+                        );
                     }
                     let told = warnings::about(who);
                     found.at_most(format!("{case}: warnings {told:?}"), told.len() as f32, 1.0);
@@ -579,7 +747,12 @@ fn a_teleport_is_taken_as_it_is() {
         sim.ticks(1);
         found.near(format!("{hz} Hz: up"), sim.position(who).y, 3.0, 0.02);
         sim.seconds(2.0);
-        found.near(format!("{hz} Hz: falls from there"), sim.position(who).y, 0.0, 0.002);
+        found.near(
+            format!("{hz} Hz: falls from there"),
+            sim.position(who).y,
+            0.0,
+            0.002,
+        );
     }
 }
 
@@ -596,6 +769,11 @@ fn the_tick_rate_may_change_at_any_time() {
         sim.ticks(1);
         let start = sim.position(who).x;
         sim.seconds(1.0);
-        found.within(format!("{hz} Hz"), sim.position(who).x - start, SPEED, 0.001);
+        found.within(
+            format!("{hz} Hz"),
+            sim.position(who).x - start,
+            SPEED,
+            0.001,
+        );
     }
 }

@@ -50,7 +50,11 @@ fn collision_groups_decide_from_both_sides() {
         ] {
             let x = run_at_wall(hz, |sim, who, wall| {
                 insert(sim, who, CollisionGroups::new(who_groups.0, who_groups.1));
-                insert(sim, wall, CollisionGroups::new(wall_groups.0, wall_groups.1));
+                insert(
+                    sim,
+                    wall,
+                    CollisionGroups::new(wall_groups.0, wall_groups.1),
+                );
             });
             let case = format!("{hz} Hz {who_groups:?} against {wall_groups:?}");
             expect(&mut found, &case, x, passes);
@@ -62,7 +66,9 @@ fn collision_groups_decide_from_both_sides() {
 fn a_list_of_ignored_entities_is_passed() {
     let mut found = Findings::new();
     for hz in RATES {
-        let x = run_at_wall(hz, |sim, who, wall| insert(sim, who, CharacterIgnores(vec![wall])));
+        let x = run_at_wall(hz, |sim, who, wall| {
+            insert(sim, who, CharacterIgnores(vec![wall]))
+        });
         expect(&mut found, &format!("{hz} Hz"), x, true);
     }
 }
@@ -109,7 +115,12 @@ fn a_predicate_decides_for_each_collider() {
         sim.seconds(0.3);
         sim.walk(who, Vec3::X);
         sim.seconds(1.5);
-        found.near(format!("{hz} Hz: stops at the second"), sim.position(who).x, 3.7, 0.025);
+        found.near(
+            format!("{hz} Hz: stops at the second"),
+            sim.position(who).x,
+            3.7,
+            0.025,
+        );
         found.near(format!("{hz} Hz: stands"), sim.position(who).y, 0.0, 0.002);
     }
 }
@@ -130,8 +141,18 @@ fn sensors_are_never_touched() {
         sim.seconds(1.5);
         sim.intent(who, |intent| intent.stance = Stance::Stand);
         sim.seconds(0.5);
-        found.near(format!("{hz} Hz: falls through"), sim.position(who).y, -2.0, 0.002);
-        found.near(format!("{hz} Hz: stands up in it"), sim.state(who).height, 1.8, 1e-3);
+        found.near(
+            format!("{hz} Hz: falls through"),
+            sim.position(who).y,
+            -2.0,
+            0.002,
+        );
+        found.near(
+            format!("{hz} Hz: stands up in it"),
+            sim.state(who).height,
+            1.8,
+            1e-3,
+        );
     }
 }
 
@@ -152,8 +173,16 @@ fn its_own_colliders_and_those_of_its_children_are_not_in_its_way() {
         sim.floor(0.0);
         let who = runner(&mut sim, Vec3::ZERO);
         // A hit box and a shield, carried along.
-        sim.spawn((Collider::ball(0.5), Transform::from_xyz(0.0, 1.6, 0.0), ChildOf(who)));
-        sim.spawn((Collider::cuboid(0.5, 0.5, 0.05), Transform::from_xyz(0.4, 1.0, 0.0), ChildOf(who)));
+        sim.spawn((
+            Collider::ball(0.5),
+            Transform::from_xyz(0.0, 1.6, 0.0),
+            ChildOf(who),
+        ));
+        sim.spawn((
+            Collider::cuboid(0.5, 0.5, 0.05),
+            Transform::from_xyz(0.4, 1.0, 0.0),
+            ChildOf(who),
+        ));
         sim.seconds(0.5);
         found.at_most(format!("{hz} Hz: stands"), sim.position(who).length(), 1e-3);
         sim.walk(who, Vec3::X);

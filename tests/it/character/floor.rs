@@ -21,10 +21,18 @@ struct Walk {
 
 fn walk(found: &mut Findings, kind: FloorKind, hz: f64, character: &Character, walk: &Walk) {
     let mut sim = Sim::new(hz);
-    sim.floor_of(kind, walk.origin - Vec3::new(3.0, 0.0, 4.0), Vec2::new(58.0, 20.0));
+    sim.floor_of(
+        kind,
+        walk.origin - Vec3::new(3.0, 0.0, 4.0),
+        Vec2::new(58.0, 20.0),
+    );
     let lanes = [-2.7, 1.3];
     let runners = lanes.map(|z| {
-        runner_with(&mut sim, character.clone(), walk.origin + Vec3::new(0.2, 0.0, z))
+        runner_with(
+            &mut sim,
+            character.clone(),
+            walk.origin + Vec3::new(0.2, 0.0, z),
+        )
     });
     sim.seconds(0.5);
     let start = runners.map(|runner| exact_position(&sim, runner));
@@ -56,10 +64,28 @@ fn walk(found: &mut Findings, kind: FloorKind, hz: f64, character: &Character, w
         let travel: DVec3 = last[i] - start[i];
         let along = travel.dot(heading(walk.headings[i]).as_dvec3());
         let side = travel.dot(heading(walk.headings[i] + 90.0).as_dvec3());
-        found.within(format!("{case}: distance"), along as f32, wanted as f32, walk.distance);
-        found.near(format!("{case}: sideways"), side as f32, 0.0, wanted as f32 * walk.distance);
-        found.at_least(format!("{case}: worst tick's part"), least[i] as f32, walk.tick);
-        found.at_most(format!("{case}: height range"), (high[i] - low[i]) as f32, walk.height);
+        found.within(
+            format!("{case}: distance"),
+            along as f32,
+            wanted as f32,
+            walk.distance,
+        );
+        found.near(
+            format!("{case}: sideways"),
+            side as f32,
+            0.0,
+            wanted as f32 * walk.distance,
+        );
+        found.at_least(
+            format!("{case}: worst tick's part"),
+            least[i] as f32,
+            walk.tick,
+        );
+        found.at_most(
+            format!("{case}: height range"),
+            (high[i] - low[i]) as f32,
+            walk.height,
+        );
         found.near(
             format!("{case}: height above the floor"),
             (last[i].y - f64::from(walk.origin.y)) as f32,
@@ -142,13 +168,21 @@ fn every_shape_walks_every_floor_without_a_catch() {
         .chain([Vec3::ZERO, Vec3::Y * 1.8])
         .collect();
     for shape in [
-        CharacterShape::Cylinder { radius: 0.3, height: 1.8 },
-        CharacterShape::Box { size: Vec3::new(0.5, 1.8, 0.4) },
+        CharacterShape::Cylinder {
+            radius: 0.3,
+            height: 1.8,
+        },
+        CharacterShape::Box {
+            size: Vec3::new(0.5, 1.8, 0.4),
+        },
         CharacterShape::ConvexHull { points: hull },
     ] {
         let character = Character { shape, ..default() };
         for kind in FloorKind::ALL {
-            let short = Walk { seconds: 4.0, ..NEAR };
+            let short = Walk {
+                seconds: 4.0,
+                ..NEAR
+            };
             walk(&mut found, kind, 60.0, &character, &short);
         }
     }
@@ -161,7 +195,10 @@ fn a_millimetre_between_tiles_neither_stops_nor_lifts_off() {
         let mut sim = Sim::new(hz);
         for i in -2..32 {
             let top = if i % 2 == 0 { 0.0 } else { 0.001 };
-            sim.block(Vec3::new(i as f32 + 0.5, top - 0.5, 0.0), Vec3::new(1.0, 1.0, 4.0));
+            sim.block(
+                Vec3::new(i as f32 + 0.5, top - 0.5, 0.0),
+                Vec3::new(1.0, 1.0, 4.0),
+            );
         }
         let runner = runner(&mut sim, Vec3::new(0.5, 0.0, 0.0));
         sim.seconds(0.5);
@@ -172,8 +209,17 @@ fn a_millimetre_between_tiles_neither_stops_nor_lifts_off() {
             sim.ticks(1);
             off_ground += usize::from(!sim.state(runner).on_ground());
         }
-        found.within(format!("{hz} Hz: distance"), sim.position(runner).x - start, 25.0, 0.002);
-        found.at_most(format!("{hz} Hz: ticks off the ground"), off_ground as f32, 0.0);
+        found.within(
+            format!("{hz} Hz: distance"),
+            sim.position(runner).x - start,
+            25.0,
+            0.002,
+        );
+        found.at_most(
+            format!("{hz} Hz: ticks off the ground"),
+            off_ground as f32,
+            0.0,
+        );
     }
 }
 
@@ -250,6 +296,11 @@ fn two_flush_height_fields_have_no_seam() {
             low = low.min(sim.position(walker).y);
         }
         found.at_least(format!("{hz} Hz: lowest"), low, -0.0005);
-        found.within(format!("{hz} Hz: reached"), sim.position(walker).x - 2.0, 15.0, 0.001);
+        found.within(
+            format!("{hz} Hz: reached"),
+            sim.position(walker).x - 2.0,
+            15.0,
+            0.001,
+        );
     }
 }

@@ -64,33 +64,62 @@ fn between(low: f32, high: f32) -> impl Strategy<Value = f32> {
 fn part(largest: f32) -> impl Strategy<Value = Part> {
     (
         (between(-7.0, 7.0), between(0.0, 2.5), between(-7.0, 7.0)),
-        (between(0.1, largest), between(0.1, largest), between(0.1, largest)),
-        (between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0), prop_oneof![Just(0.0f32), between(0.0, 3.0)]),
+        (
+            between(0.1, largest),
+            between(0.1, largest),
+            between(0.1, largest),
+        ),
+        (
+            between(-1.0, 1.0),
+            between(-1.0, 1.0),
+            between(-1.0, 1.0),
+            prop_oneof![Just(0.0f32), between(0.0, 3.0)],
+        ),
     )
         .prop_map(|(at, size, turn)| Part {
             at: at.into(),
             size: size.into(),
             turn: Quat::from_axis_angle(
-                Vec3::new(turn.0, turn.1, turn.2).try_normalize().unwrap_or(Vec3::Y),
+                Vec3::new(turn.0, turn.1, turn.2)
+                    .try_normalize()
+                    .unwrap_or(Vec3::Y),
                 turn.3,
             ),
         })
 }
 
 fn leg() -> impl Strategy<Value = Leg> {
-    (between(0.0, 360.0), between(0.2, 1.0), any::<bool>(), any::<bool>(), prop::bool::weighted(0.2)).prop_map(
-        |(degrees, part, jump, sprint, crouch)| Leg { degrees, part, jump, sprint, crouch },
+    (
+        between(0.0, 360.0),
+        between(0.2, 1.0),
+        any::<bool>(),
+        any::<bool>(),
+        prop::bool::weighted(0.2),
     )
+        .prop_map(|(degrees, part, jump, sprint, crouch)| Leg {
+            degrees,
+            part,
+            jump,
+            sprint,
+            crouch,
+        })
 }
 
 fn junk() -> impl Strategy<Value = Junk> {
-    let mover = (part(2.5), (between(-1.5, 1.5), between(-0.7, 0.7), between(-1.5, 1.5)), between(-1.0, 1.0));
+    let mover = (
+        part(2.5),
+        (between(-1.5, 1.5), between(-0.7, 0.7), between(-1.5, 1.5)),
+        between(-1.0, 1.0),
+    );
     (
         prop::collection::vec(part(4.0), 0..12),
         prop::collection::vec(part(4.0), 0..4),
         prop::option::of((between(0.1, 1.2), between(0.3, 1.5))),
         // Half of the worlds are static.
-        prop_oneof![Just(Vec::new()).boxed(), prop::collection::vec(mover, 1..4).boxed()],
+        prop_oneof![
+            Just(Vec::new()).boxed(),
+            prop::collection::vec(mover, 1..4).boxed()
+        ],
         prop_oneof![
             Just(Vec::new()).boxed(),
             prop::collection::vec((part(1.0), between(1.0, 300.0)), 1..4).boxed()
@@ -122,7 +151,11 @@ fn build(hz: f64, junk: &Junk) -> (Sim, Vec<Entity>, Vec<Entity>) {
     let mut sim = Sim::new(hz);
     let mut fixed = vec![sim.block(Vec3::NEG_Y * 0.5, Vec3::new(20.0, 1.0, 20.0))];
     for (x, z) in [(10.0, 0.0), (-10.0, 0.0), (0.0, 10.0), (0.0, -10.0)] {
-        let long = Vec3::new(if x == 0.0 { 21.0 } else { 1.0 }, 12.0, if z == 0.0 { 21.0 } else { 1.0 });
+        let long = Vec3::new(
+            if x == 0.0 { 21.0 } else { 1.0 },
+            12.0,
+            if z == 0.0 { 21.0 } else { 1.0 },
+        );
         fixed.push(sim.block(Vec3::new(x, 6.0, z), long));
     }
     for part in &junk.boxes {
@@ -134,7 +167,9 @@ fn build(hz: f64, junk: &Junk) -> (Sim, Vec<Entity>, Vec<Entity>) {
         fixed.push(sim.fixed(mesh.collider(), part.pose()));
     }
     if let Some((height, wave)) = junk.hills {
-        let mesh = Patch::terrain(40, 0.5, |x, z| height * ops::sin(x * wave) * ops::cos(z * wave));
+        let mesh = Patch::terrain(40, 0.5, |x, z| {
+            height * ops::sin(x * wave) * ops::cos(z * wave)
+        });
         fixed.push(sim.fixed(mesh.collider(), Transform::from_xyz(-10.0, 0.3, -10.0)));
     }
     for &(part, way, turn) in &junk.movers {
@@ -156,7 +191,10 @@ fn build(hz: f64, junk: &Junk) -> (Sim, Vec<Entity>, Vec<Entity>) {
             let mut foot = cell + Vec3::Y * 0.02;
             while foot.y < 9.0 {
                 sim.place(who, foot);
-                if fixed.iter().all(|&other| depth_in(&sim, who, other) < -0.01) {
+                if fixed
+                    .iter()
+                    .all(|&other| depth_in(&sim, who, other) < -0.01)
+                {
                     break;
                 }
                 foot.y += 0.25;
@@ -165,7 +203,10 @@ fn build(hz: f64, junk: &Junk) -> (Sim, Vec<Entity>, Vec<Entity>) {
             if foot.y < 9.0 && junk.meshes.iter().any(|part| inside(*part, foot)) {
                 sim.place(who, foot.with_y(8.0));
             }
-            sim.app.world_mut().entity_mut(who).insert(CharacterState::default());
+            sim.app
+                .world_mut()
+                .entity_mut(who)
+                .insert(CharacterState::default());
             who
         })
         .collect();
@@ -184,14 +225,21 @@ fn run(hz: f64, junk: &Junk) -> Result<(), String> {
     let moving = !junk.movers.is_empty() || !junk.dynamics.is_empty();
     let (walk, sprint) = (5.0, 8.0);
     for tick in 0..TICKS {
-        let before: Vec<(Vec3, CharacterState)> = crowd.iter().map(|&who| (sim.position(who), sim.state(who))).collect();
+        let before: Vec<(Vec3, CharacterState)> = crowd
+            .iter()
+            .map(|&who| (sim.position(who), sim.state(who)))
+            .collect();
         for (&who, script) in crowd.iter().zip(&junk.scripts) {
             let leg = script[tick * 4 / TICKS];
             sim.intent(who, |intent| {
                 intent.movement = heading(leg.degrees) * leg.part;
                 intent.jump = leg.jump;
                 intent.sprint = leg.sprint;
-                intent.stance = if leg.crouch { Stance::Crouch } else { Stance::Stand };
+                intent.stance = if leg.crouch {
+                    Stance::Crouch
+                } else {
+                    Stance::Stand
+                };
             });
         }
         sim.ticks(1);

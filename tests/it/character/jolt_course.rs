@@ -30,7 +30,10 @@ fn small_bumps_are_walked_over_at_full_speed() {
             let mut sim = Sim::new(hz);
             sim.floor(0.0);
             for i in 1..20 {
-                sim.block(Vec3::new(i as f32 * every, height * 0.5, 0.0), Vec3::new(width, height, 4.0));
+                sim.block(
+                    Vec3::new(i as f32 * every, height * 0.5, 0.0),
+                    Vec3::new(width, height, 4.0),
+                );
             }
             let who = runner(&mut sim, Vec3::ZERO);
             let (way, slowest, off) = stroll(&mut sim, who, 1.6, hz);
@@ -93,7 +96,11 @@ fn a_trough_of_many_facets_is_run_along_and_across() {
                 always &= finite(&sim, who);
                 let ball = sim.position(who) + Vec3::Y * 0.3 - Vec3::Y * 3.0;
                 let out = ball.with_x(0.0).length() + 0.3;
-                found.at_most(format!("{hz} Hz {degrees}°: distance from the axis"), out, 3.002);
+                found.at_most(
+                    format!("{hz} Hz {degrees}°: distance from the axis"),
+                    out,
+                    3.002,
+                );
             }
             found.holds(format!("{hz} Hz {degrees}°: finite"), always);
             found.at_most(format!("{hz} Hz {degrees}°: fastest"), fastest, SPEED * 1.2);
@@ -109,11 +116,24 @@ fn a_low_wall_gives_no_speed() {
     let mut found = Findings::new();
     for hz in RATES {
         for height in [0.1, 0.29, 0.45, 0.6] {
-            for step in [None, Some(StepConfig { height: 0.05, ..default() })] {
+            for step in [
+                None,
+                Some(StepConfig {
+                    height: 0.05,
+                    ..default()
+                }),
+            ] {
                 let mut sim = Sim::new(hz);
                 sim.floor(0.0);
-                sim.block(Vec3::new(20.0, height * 0.5, -0.5), Vec3::new(60.0, height, 1.0));
-                let who = runner_with(&mut sim, Character { step, ..default() }, Vec3::new(0.0, 0.0, 0.5));
+                sim.block(
+                    Vec3::new(20.0, height * 0.5, -0.5),
+                    Vec3::new(60.0, height, 1.0),
+                );
+                let who = runner_with(
+                    &mut sim,
+                    Character { step, ..default() },
+                    Vec3::new(0.0, 0.0, 0.5),
+                );
                 sim.seconds(0.3);
                 sim.walk(who, heading(-12.0));
                 let mut fastest: f32 = 0.0;
@@ -125,7 +145,11 @@ fn a_low_wall_gives_no_speed() {
                 }
                 let case = format!("{hz} Hz wall {height} step {step:?}");
                 found.at_most(format!("{case}: fastest"), fastest, SPEED * 1.001);
-                found.at_least(format!("{case}: way"), sim.position(who).x, 2.0 * SPEED * 0.9);
+                found.at_least(
+                    format!("{case}: way"),
+                    sim.position(who).x,
+                    2.0 * SPEED * 0.9,
+                );
             }
         }
     }
@@ -144,7 +168,10 @@ fn an_obstacle_higher_than_the_step_is_climbed_from_no_direction() {
                     Transform::from_xyz(4.0, 0.4, 0.3).with_rotation(Quat::from_rotation_y(turn)),
                 );
                 let character = Character {
-                    step: Some(StepConfig { height: step, ..default() }),
+                    step: Some(StepConfig {
+                        height: step,
+                        ..default()
+                    }),
                     ..Character::capsule(0.45, 1.8)
                 };
                 let who = runner_with(&mut sim, character, Vec3::ZERO);
@@ -155,7 +182,11 @@ fn an_obstacle_higher_than_the_step_is_climbed_from_no_direction() {
                     sim.ticks(1);
                     high = high.max(sim.position(who).y);
                 }
-                found.at_most(format!("{hz} Hz step {step} turned {turn}: highest"), high, 0.01);
+                found.at_most(
+                    format!("{hz} Hz step {step} turned {turn}: highest"),
+                    high,
+                    0.01,
+                );
             }
         }
     }
@@ -182,8 +213,16 @@ fn a_gap_too_narrow_to_enter_holds_without_jitter() {
                 (low, high) = (low.min(now), high.max(now));
             }
             let case = format!("{hz} Hz from {side}");
-            found.at_most(format!("{case}: jitter"), (high - low).max_element(), 0.0001);
-            found.at_most(format!("{case}: middle"), high.z.abs().max(low.z.abs()), 0.01);
+            found.at_most(
+                format!("{case}: jitter"),
+                (high - low).max_element(),
+                0.0001,
+            );
+            found.at_most(
+                format!("{case}: middle"),
+                high.z.abs().max(low.z.abs()),
+                0.01,
+            );
         }
     }
 }
@@ -280,7 +319,10 @@ fn a_steep_wedge_with_an_overhang_lets_go_again() {
             sim.floor(0.0);
             // Two walls that close in ahead; each leans by this from level.
             for side in [-1.0f32, 1.0] {
-                let turn = Quat::from_rotation_y(side * 0.35) * Quat::from_rotation_x(side * (f32::to_radians(lean) - core::f32::consts::FRAC_PI_2));
+                let turn = Quat::from_rotation_y(side * 0.35)
+                    * Quat::from_rotation_x(
+                        side * (f32::to_radians(lean) - core::f32::consts::FRAC_PI_2),
+                    );
                 sim.fixed(
                     Collider::cuboid(3.0, 2.5, 0.1),
                     Transform::from_xyz(3.0, 1.0, side * 1.2).with_rotation(turn),
@@ -297,7 +339,11 @@ fn a_steep_wedge_with_an_overhang_lets_go_again() {
             found.holds(format!("{case}: finite"), finite(&sim, who));
             sim.walk(who, Vec3::NEG_X);
             sim.seconds(1.0);
-            found.at_most(format!("{case}: came back"), sim.position(who).x, held.x - 2.0);
+            found.at_most(
+                format!("{case}: came back"),
+                sim.position(who).x,
+                held.x - 2.0,
+            );
         }
     }
 }
@@ -333,7 +379,8 @@ fn ten_minutes_on_a_slope_just_below_the_limit_do_not_drift() {
     let angle = 49f32.to_radians();
     sim.ramp(Make::Boxes, Vec3::ZERO, angle, 20.0, 10.0);
     sim.ramp(Make::Mesh, Vec3::Z * 20.0, angle, 20.0, 10.0);
-    let pair = [Vec3::ZERO, Vec3::Z * 20.0].map(|at| runner(&mut sim, foot_on_slope(at, angle, 0.3)));
+    let pair =
+        [Vec3::ZERO, Vec3::Z * 20.0].map(|at| runner(&mut sim, foot_on_slope(at, angle, 0.3)));
     sim.seconds(1.0);
     let start = pair.map(|who| sim.position(who));
     sim.seconds(600.0);
@@ -351,7 +398,13 @@ fn sliding_crates_come_down_on_one_who_may_or_may_not_push_and_be_pushed() {
             for pushable in [true, false] {
                 let mut sim = Sim::new(hz);
                 sim.floor(0.0);
-                let ramp = sim.ramp(Make::Boxes, Vec3::new(4.0, 4.0, 0.0), 45f32.to_radians(), 11.0, 6.0);
+                let ramp = sim.ramp(
+                    Make::Boxes,
+                    Vec3::new(4.0, 4.0, 0.0),
+                    45f32.to_radians(),
+                    11.0,
+                    6.0,
+                );
                 insert(&mut sim, ramp, Friction::coefficient(0.0));
                 let (up_slope, normal) = slope_axes(45f32.to_radians());
                 let tilt = Quat::from_rotation_z(45f32.to_radians());
@@ -364,8 +417,15 @@ fn sliding_crates_come_down_on_one_who_may_or_may_not_push_and_be_pushed() {
                 if !pushable {
                     insert(&mut sim, crate_, NotPushable);
                 }
-                let character = Character { pushed_by_bodies: pushed, ..default() };
-                let who = runner_with(&mut sim, character, foot_on_slope(Vec3::new(3.0, 3.0, 0.0), 45f32.to_radians(), 0.3));
+                let character = Character {
+                    pushed_by_bodies: pushed,
+                    ..default()
+                };
+                let who = runner_with(
+                    &mut sim,
+                    character,
+                    foot_on_slope(Vec3::new(3.0, 3.0, 0.0), 45f32.to_radians(), 0.3),
+                );
                 let start = sim.position(who);
                 let (mut fastest, mut deepest): (f32, f32) = (0.0, f32::MIN);
                 for _ in 0..(4.0 * hz) as usize {
@@ -380,7 +440,11 @@ fn sliding_crates_come_down_on_one_who_may_or_may_not_push_and_be_pushed() {
                 found.at_most(format!("{case}: fastest"), fastest, 10.0);
                 found.at_most(format!("{case}: deepest"), deepest, 0.001);
                 if !pushed {
-                    found.at_most(format!("{case}: moved"), sim.position(who).distance(start), 0.02);
+                    found.at_most(
+                        format!("{case}: moved"),
+                        sim.position(who).distance(start),
+                        0.02,
+                    );
                 }
             }
         }
@@ -394,13 +458,32 @@ fn a_ball_that_rolls_in_and_a_stack_of_boxes_throw_nobody() {
         let mut sim = Sim::new(hz);
         sim.floor(0.0);
         for i in 0..3 {
-            sim.dynamic(Collider::cuboid(0.5, 0.5, 0.5), Transform::from_xyz(2.5, 0.5 + i as f32, 0.0), 10.0);
+            sim.dynamic(
+                Collider::cuboid(0.5, 0.5, 0.5),
+                Transform::from_xyz(2.5, 0.5 + i as f32, 0.0),
+                10.0,
+            );
         }
-        let ball = sim.dynamic(Collider::ball(0.2), Transform::from_xyz(-2.0, 0.2, 0.0), 10.0);
-        insert(&mut sim, ball, Velocity { linear: Vec3::X * 2.0, angular: Vec3::NEG_Z * 10.0 });
+        let ball = sim.dynamic(
+            Collider::ball(0.2),
+            Transform::from_xyz(-2.0, 0.2, 0.0),
+            10.0,
+        );
+        insert(
+            &mut sim,
+            ball,
+            Velocity {
+                linear: Vec3::X * 2.0,
+                angular: Vec3::NEG_Z * 10.0,
+            },
+        );
         let who = runner(&mut sim, Vec3::ZERO);
         sim.seconds(1.5);
-        found.at_most(format!("{hz} Hz: moved by the ball"), sim.position(who).length(), 0.5);
+        found.at_most(
+            format!("{hz} Hz: moved by the ball"),
+            sim.position(who).length(),
+            0.5,
+        );
         sim.walk(who, Vec3::X);
         let mut fastest: f32 = 0.0;
         for _ in 0..(3.0 * hz) as usize {

@@ -21,4 +21,3 @@ mod stance;
 mod upward;
 mod volumes;
 mod walls;
-

@@ -14,7 +14,11 @@ use super::support::*;
 
 /// A slab whose top is at `y = 0` of its own frame, 6 m square.
 fn slab() -> Collider {
-    Collider::compound(vec![(Vec3::NEG_Y * 0.25, Quat::IDENTITY, Collider::cuboid(3.0, 0.25, 3.0))])
+    Collider::compound(vec![(
+        Vec3::NEG_Y * 0.25,
+        Quat::IDENTITY,
+        Collider::cuboid(3.0, 0.25, 3.0),
+    )])
 }
 
 /// A box slab: its origin is its middle, its top 0.25 m above.
@@ -23,7 +27,9 @@ fn board() -> Collider {
 }
 
 /// Half a second at rest, then `path` with its own time.
-fn later(path: impl Fn(f64) -> DVec3 + Send + Sync + 'static) -> impl Fn(f64) -> Transform + Send + Sync {
+fn later(
+    path: impl Fn(f64) -> DVec3 + Send + Sync + 'static,
+) -> impl Fn(f64) -> Transform + Send + Sync {
     move |t| Transform::from_translation(path((t - 0.5).max(0.0)).as_vec3())
 }
 
@@ -34,7 +40,14 @@ fn triangle_wave(t: f64, speed: f64, stroke: f64) -> f64 {
 }
 
 /// Largest distances of the foot above and below the top of a platform over `seconds`.
-fn gap_range(sim: &mut Sim, rider: Entity, platform: Entity, top: f32, hz: f64, seconds: f64) -> (f32, f32) {
+fn gap_range(
+    sim: &mut Sim,
+    rider: Entity,
+    platform: Entity,
+    top: f32,
+    hz: f64,
+    seconds: f64,
+) -> (f32, f32) {
     let (mut low, mut high) = (f32::MAX, f32::MIN);
     for _ in 0..(seconds * hz) as usize {
         sim.ticks(1);
@@ -76,7 +89,10 @@ fn a_reversing_lift_keeps_the_foot_within_a_centimetre_of_its_floor() {
         for speed in [0.5, 1.0, 3.0] {
             let mut sim = Sim::new(hz);
             let stroke = speed * 0.8;
-            let lift = sim.mover(board(), later(move |t| DVec3::Y * triangle_wave(t, speed, stroke)));
+            let lift = sim.mover(
+                board(),
+                later(move |t| DVec3::Y * triangle_wave(t, speed, stroke)),
+            );
             let rider = runner(&mut sim, Vec3::Y * 0.25);
             sim.seconds(0.25);
             let mut off = 0;
@@ -173,10 +189,11 @@ fn a_table_that_turns_about_a_tilted_axis_carries_along_its_arc() {
     for hz in RATES {
         let mut sim = Sim::new(hz);
         let axis = DVec3::new(0.15, 1.0, 0.1).normalize();
-        let turn = move |t: f64| {
-            DQuat::from_axis_angle(axis, TAU * 0.3 * (t - 0.5).max(0.0)).as_quat()
-        };
-        let table = sim.mover(Collider::cuboid(4.0, 0.25, 4.0), move |t| Transform::from_rotation(turn(t)));
+        let turn =
+            move |t: f64| DQuat::from_axis_angle(axis, TAU * 0.3 * (t - 0.5).max(0.0)).as_quat();
+        let table = sim.mover(Collider::cuboid(4.0, 0.25, 4.0), move |t| {
+            Transform::from_rotation(turn(t))
+        });
         let rider = runner(&mut sim, Vec3::new(2.0, 0.25, 0.0));
         sim.seconds(0.5);
         // The centre of the capsule's lower ball is what the carrying keeps above the plane.
@@ -243,7 +260,12 @@ fn a_platform_that_moves_sideways_carries_fully() {
             found.near(format!("{case}: platform"), carried.x, 3.0, 0.001);
             found.near(format!("{case}: walked"), moved.z, cross * SPEED, 0.002);
             let state = sim.state(rider);
-            found.near(format!("{case}: velocity of the platform"), state.platform_velocity.x, 3.0, 0.01);
+            found.near(
+                format!("{case}: velocity of the platform"),
+                state.platform_velocity.x,
+                3.0,
+                0.01,
+            );
             found.near(format!("{case}: own velocity"), state.velocity.x, 0.0, 0.01);
         }
     }
@@ -262,9 +284,15 @@ fn a_rider_walks_on_a_moving_platform_as_on_land() {
             // Something to run into.
             let pillar = Collider::cuboid(0.5, 2.0, 0.5);
             if offset == Vec3::ZERO {
-                sim.mover(pillar, later(|t| DVec3::new(4.0, 2.25, 0.2) + DVec3::new(4.0, 1.0, -2.0) * t));
+                sim.mover(
+                    pillar,
+                    later(|t| DVec3::new(4.0, 2.25, 0.2) + DVec3::new(4.0, 1.0, -2.0) * t),
+                );
             } else {
-                sim.fixed(pillar, Transform::from_translation(offset + Vec3::new(4.0, 2.25, 0.2)));
+                sim.fixed(
+                    pillar,
+                    Transform::from_translation(offset + Vec3::new(4.0, 2.25, 0.2)),
+                );
             }
         }
         let rider = runner(&mut sim, Vec3::Y * 0.25);
@@ -309,12 +337,20 @@ fn a_conveyor_carries_at_its_speed_and_in_its_own_axes() {
         let wanted = Quat::from_rotation_y(0.5) * Vec3::X * 4.0;
         found.at_most(format!("{hz} Hz: off"), moved.distance(wanted), 0.005);
         let ground = sim.state(rider).ground;
-        found.at_most(format!("{hz} Hz: ground velocity off"), ground.velocity.distance(wanted * 0.5), 0.01);
+        found.at_most(
+            format!("{hz} Hz: ground velocity off"),
+            ground.velocity.distance(wanted * 0.5),
+            0.01,
+        );
         // Against the belt at its own speed it stands.
         let start = sim.position(rider);
         sim.walk(rider, -wanted.normalize() * 2.0 / SPEED);
         sim.seconds(1.0);
-        found.at_most(format!("{hz} Hz: treadmill"), sim.position(rider).distance(start), 0.05);
+        found.at_most(
+            format!("{hz} Hz: treadmill"),
+            sim.position(rider).distance(start),
+            0.05,
+        );
     }
 }
 
@@ -323,7 +359,10 @@ fn a_turning_surface_carries_along_its_arc() {
     let mut found = Findings::new();
     for hz in RATES {
         let mut sim = Sim::new(hz);
-        let disc = sim.fixed(Collider::cylinder(0.5, 6.0), Transform::from_xyz(0.0, -0.5, 0.0));
+        let disc = sim.fixed(
+            Collider::cylinder(0.5, 6.0),
+            Transform::from_xyz(0.0, -0.5, 0.0),
+        );
         let rider = runner(&mut sim, Vec3::X * 2.0);
         sim.seconds(0.3);
         insert(
@@ -346,7 +385,10 @@ fn leave(hz: f64, velocity: DVec3, rule: LeaveVelocity) -> Vec3 {
     sim.mover(board(), later(move |t| velocity * t));
     let rider = runner_with(
         &mut sim,
-        Character { leave_velocity: rule, ..default() },
+        Character {
+            leave_velocity: rule,
+            ..default()
+        },
         Vec3::Y * 0.25,
     );
     sim.seconds(1.0);
@@ -376,8 +418,17 @@ fn leaving_a_platform_keeps_as_much_of_its_velocity_as_configured() {
             found.near(format!("{case}: up"), got.y, y + jump, 0.03 + G / hz as f32);
             // Downward velocity of the platform is never kept by `UpOnly`.
             let got = leave(hz, DVec3::new(0.0, -1.0, 0.0), rule);
-            let down = if rule == LeaveVelocity::Full { -1.0 } else { 0.0 };
-            found.near(format!("{case}: down"), got.y, down + jump, 0.03 + G / hz as f32);
+            let down = if rule == LeaveVelocity::Full {
+                -1.0
+            } else {
+                0.0
+            };
+            found.near(
+                format!("{case}: down"),
+                got.y,
+                down + jump,
+                0.03 + G / hz as f32,
+            );
         }
     }
 }
@@ -403,7 +454,11 @@ fn a_jump_from_a_turning_disc_keeps_the_tangent_velocity() {
         found.within(format!("{hz} Hz: speed"), velocity.length(), speed, 0.02);
         // The tangent at take-off, up to the turn of a tick.
         let off = velocity.normalize_or_zero().distance(tangent);
-        found.at_most(format!("{hz} Hz: direction off"), off, 0.01 + rate as f32 / hz as f32);
+        found.at_most(
+            format!("{hz} Hz: direction off"),
+            off,
+            0.01 + rate as f32 / hz as f32,
+        );
     }
 }
 
@@ -448,7 +503,11 @@ fn a_platform_that_is_a_child_carries_too() {
             let parent = if child_is_body {
                 sim.spawn((mover, Transform::IDENTITY))
             } else {
-                sim.spawn((mover, Transform::IDENTITY, RigidBody::KinematicPositionBased))
+                sim.spawn((
+                    mover,
+                    Transform::IDENTITY,
+                    RigidBody::KinematicPositionBased,
+                ))
             };
             let offset = Transform::from_xyz(5.0, 1.0, 0.0);
             let deck = sim.spawn((board(), offset, ChildOf(parent)));
@@ -461,9 +520,16 @@ fn a_platform_that_is_a_child_carries_too() {
             for tick in 1..=(3.0 * hz) as usize {
                 sim.ticks(1);
                 let pose = path(0.5 + tick as f64 / hz);
-                off = off.max(sim.position(rider).distance(pose.transform_point(Vec3::new(5.5, 1.25, 0.0))));
+                off = off.max(
+                    sim.position(rider)
+                        .distance(pose.transform_point(Vec3::new(5.5, 1.25, 0.0))),
+                );
             }
-            found.at_most(format!("{hz} Hz child is body {child_is_body}: off"), off, 0.01);
+            found.at_most(
+                format!("{hz} Hz child is body {child_is_body}: off"),
+                off,
+                0.01,
+            );
         }
     }
 }
@@ -477,8 +543,10 @@ fn a_ship_that_accelerates_keeps_its_crew_in_place() {
         let path = |t: f64| {
             let t = (t - 0.5).max(0.0);
             let angle = 0.2 * t * t;
-            Transform::from_translation(DVec3::new(angle.cos() - 1.0, 0.0, angle.sin()).as_vec3() * 10.0)
-                .with_rotation(DQuat::from_rotation_y(-angle).as_quat())
+            Transform::from_translation(
+                DVec3::new(angle.cos() - 1.0, 0.0, angle.sin()).as_vec3() * 10.0,
+            )
+            .with_rotation(DQuat::from_rotation_y(-angle).as_quat())
         };
         let ship = sim.mover(slab(), path);
         let crew = runner(&mut sim, Vec3::new(1.5, 0.0, 1.0));

@@ -42,7 +42,11 @@ fn a_minute_of_standing_on_a_slope_drifts_less_than_a_millimetre() {
         sim.seconds(60.0);
         for (&(degrees, make, stander), start) in standers.iter().zip(start) {
             let case = format!("{hz} Hz {degrees}° {make:?}");
-            found.at_most(format!("{case}: drift"), sim.position(stander).distance(start), 0.001);
+            found.at_most(
+                format!("{case}: drift"),
+                sim.position(stander).distance(start),
+                0.001,
+            );
             found.holds(format!("{case}: on ground"), sim.state(stander).on_ground());
             let normal = sim.state(stander).ground.normal;
             let (_, wanted) = slope_axes(degrees.to_radians());
@@ -58,14 +62,25 @@ fn a_landing_on_a_slope_does_not_slide_on() {
         let mut sim = Sim::new(hz);
         let ramps = ramps(&mut sim, &[10.0, 30.0, 45.0]);
         for (degrees, make, middle) in ramps {
-            let faller = runner(&mut sim, foot_on_slope(middle, degrees.to_radians(), 0.3) + Vec3::Y * 2.0);
+            let faller = runner(
+                &mut sim,
+                foot_on_slope(middle, degrees.to_radians(), 0.3) + Vec3::Y * 2.0,
+            );
             sim.seconds(0.5);
             sim.seconds(1.0);
             let start = sim.position(faller);
             sim.seconds(2.0);
             let case = format!("{hz} Hz {degrees}° {make:?}");
-            found.at_most(format!("{case}: drift"), sim.position(faller).distance(start), 0.0005);
-            found.at_most(format!("{case}: speed"), sim.state(faller).velocity.length(), 0.01);
+            found.at_most(
+                format!("{case}: drift"),
+                sim.position(faller).distance(start),
+                0.0005,
+            );
+            found.at_most(
+                format!("{case}: speed"),
+                sim.state(faller).velocity.length(),
+                0.01,
+            );
         }
     }
 }
@@ -73,7 +88,10 @@ fn a_landing_on_a_slope_does_not_slide_on() {
 fn walk_slopes(slope_speed: SlopeSpeed) {
     let mut found = Findings::new();
     let degrees = [5.0, 15.0, 25.0, 35.0, 45.0];
-    let character = Character { slope_speed, ..default() };
+    let character = Character {
+        slope_speed,
+        ..default()
+    };
     for hz in RATES {
         // Up, down, across, and at an angle.
         for way in [0.0, 180.0, 90.0, 30.0, 150.0] {
@@ -101,7 +119,11 @@ fn walk_slopes(slope_speed: SlopeSpeed) {
                     airborne += usize::from(!sim.state(walker).on_ground());
                 }
             }
-            found.at_most(format!("{hz} Hz way {way}°: ticks in the air"), airborne as f32, 0.0);
+            found.at_most(
+                format!("{hz} Hz way {way}°: ticks in the air"),
+                airborne as f32,
+                0.0,
+            );
             for (&(degrees, make, walker), start) in walkers.iter().zip(start) {
                 let moved = sim.position(walker) - start;
                 let measured = match slope_speed {
@@ -109,12 +131,26 @@ fn walk_slopes(slope_speed: SlopeSpeed) {
                     SlopeSpeed::Horizontal => moved.with_y(0.0).length(),
                 };
                 let case = format!("{hz} Hz {degrees}° {make:?} way {way}°");
-                found.within(format!("{case}: speed"), measured / time as f32, SPEED, 0.001);
+                found.within(
+                    format!("{case}: speed"),
+                    measured / time as f32,
+                    SPEED,
+                    0.001,
+                );
                 // The heading on the map is the one asked for.
                 let level = moved.with_y(0.0).normalize_or_zero();
-                found.at_most(format!("{case}: off its heading"), level.distance(heading(way)), 0.002);
+                found.at_most(
+                    format!("{case}: off its heading"),
+                    level.distance(heading(way)),
+                    0.002,
+                );
                 let (_, normal) = slope_axes(degrees.to_radians());
-                found.near(format!("{case}: above the slope"), moved.dot(normal), 0.0, 0.0005);
+                found.near(
+                    format!("{case}: above the slope"),
+                    moved.dot(normal),
+                    0.0,
+                    0.0005,
+                );
             }
         }
     }
@@ -140,12 +176,18 @@ fn ground_steeper_than_the_limit_is_slid_down_at_g_sin() {
             .iter()
             .map(|&(degrees, make, middle)| {
                 let (up_slope, _) = slope_axes(degrees.to_radians());
-                let slider = on_ramp(&mut sim, &Character::default(), middle + up_slope * 20.0, degrees);
+                let slider = on_ramp(
+                    &mut sim,
+                    &Character::default(),
+                    middle + up_slope * 20.0,
+                    degrees,
+                );
                 (degrees, make, slider)
             })
             .collect();
         sim.seconds(0.2);
-        let positions = |sim: &Sim| -> Vec<Vec3> { sliders.iter().map(|s| sim.position(s.2)).collect() };
+        let positions =
+            |sim: &Sim| -> Vec<Vec3> { sliders.iter().map(|s| sim.position(s.2)).collect() };
         let first = positions(&sim);
         let mut held = vec![0; sliders.len()];
         let mut second = Vec::new();
@@ -166,9 +208,24 @@ fn ground_steeper_than_the_limit_is_slid_down_at_g_sin() {
             // The second difference is exact for any scheme under a constant acceleration.
             let bend = (third[i] - second[i]) - (second[i] - first[i]);
             let wanted = G * ops::sin(degrees.to_radians());
-            found.within(format!("{case}: acceleration"), bend.dot(-up_slope) / 0.25, wanted, 0.02);
-            found.near(format!("{case}: off the slope"), (third[i] - first[i]).dot(normal), 0.0, 0.002);
-            found.near(format!("{case}: sideways"), third[i].z - first[i].z, 0.0, 0.0005);
+            found.within(
+                format!("{case}: acceleration"),
+                bend.dot(-up_slope) / 0.25,
+                wanted,
+                0.02,
+            );
+            found.near(
+                format!("{case}: off the slope"),
+                (third[i] - first[i]).dot(normal),
+                0.0,
+                0.002,
+            );
+            found.near(
+                format!("{case}: sideways"),
+                third[i].z - first[i].z,
+                0.0,
+                0.0005,
+            );
             found.at_most(format!("{case}: ticks not steep"), held[i] as f32, 0.0);
             let speed = sim.state(slider).velocity.dot(-up_slope);
             let by_path = (third[i] - second[i]).dot(-up_slope) / 0.5 + wanted * 0.25;
@@ -185,7 +242,11 @@ fn the_limit_decides_between_two_slopes_a_thousandth_apart() {
             for (limit, holds) in [(0.601, true), (0.599, false)] {
                 let mut sim = Sim::new(hz);
                 sim.ramp(make, Vec3::ZERO, 0.6, 40.0, 8.0);
-                let character = Character { max_slope: limit, step: None, ..default() };
+                let character = Character {
+                    max_slope: limit,
+                    step: None,
+                    ..default()
+                };
                 let walker = runner_with(&mut sim, character, foot_on_slope(Vec3::ZERO, 0.6, 0.3));
                 sim.seconds(0.5);
                 sim.walk(walker, Vec3::X);
@@ -194,7 +255,12 @@ fn the_limit_decides_between_two_slopes_a_thousandth_apart() {
                 let moved = sim.position(walker).x - start;
                 let case = format!("{hz} Hz {make:?} limit {limit}");
                 if holds {
-                    found.within(format!("{case}: climbed"), moved, SPEED * ops::cos(0.6), 0.002);
+                    found.within(
+                        format!("{case}: climbed"),
+                        moved,
+                        SPEED * ops::cos(0.6),
+                        0.002,
+                    );
                 } else {
                     found.at_most(format!("{case}: climbed"), moved, 0.01);
                 }
@@ -245,7 +311,12 @@ fn walking_along_the_foot_of_a_steep_slope_is_as_fast_as_along_a_wall() {
         let start = sim.position(walker).z;
         sim.seconds(1.0);
         let wanted = SPEED * ops::cos(10f32.to_radians());
-        found.within(format!("{hz} Hz"), sim.position(walker).z - start, wanted, 0.002);
+        found.within(
+            format!("{hz} Hz"),
+            sim.position(walker).z - start,
+            wanted,
+            0.002,
+        );
     }
 }
 
@@ -259,8 +330,20 @@ fn a_transition_from_slope_to_floor_and_back_is_walked_smoothly() {
             // Up at x = 3 and down again at the top's mirror.
             let angle = f32::to_radians(degrees);
             let top = 3.0 * ops::tan(angle);
-            sim.ramp(Make::Boxes, Vec3::new(4.5, top * 0.5, 0.0), angle, 3.0 / ops::cos(angle), 10.0);
-            sim.ramp(Make::Boxes, Vec3::new(7.5, top * 0.5, 0.0), -angle, 3.0 / ops::cos(angle), 10.0);
+            sim.ramp(
+                Make::Boxes,
+                Vec3::new(4.5, top * 0.5, 0.0),
+                angle,
+                3.0 / ops::cos(angle),
+                10.0,
+            );
+            sim.ramp(
+                Make::Boxes,
+                Vec3::new(7.5, top * 0.5, 0.0),
+                -angle,
+                3.0 / ops::cos(angle),
+                10.0,
+            );
             let walker = runner(&mut sim, Vec3::ZERO);
             sim.seconds(0.2);
             sim.walk(walker, Vec3::X);
@@ -275,9 +358,18 @@ fn a_transition_from_slope_to_floor_and_back_is_walked_smoothly() {
             let case = format!("{hz} Hz {degrees}°");
             found.at_most(format!("{case}: ticks in the air"), airborne as f32, 0.0);
             // A kink takes at most the part that its chord cuts off.
-            found.at_least(format!("{case}: slowest tick"), slowest, SPEED * ops::cos(angle) * 0.9);
+            found.at_least(
+                format!("{case}: slowest tick"),
+                slowest,
+                SPEED * ops::cos(angle) * 0.9,
+            );
             found.at_least(format!("{case}: past it"), sim.position(walker).x, 9.5);
-            found.near(format!("{case}: down again"), sim.position(walker).y, 0.0, 0.001);
+            found.near(
+                format!("{case}: down again"),
+                sim.position(walker).y,
+                0.0,
+                0.001,
+            );
         }
     }
 }
@@ -292,7 +384,10 @@ fn walking_over_a_crest_stays_on_the_ground_and_without_snap_it_flies() {
             sim.block(Vec3::new(-5.0, -0.5, 0.0), Vec3::new(10.0, 1.0, 10.0));
             let (up_slope, _) = slope_axes(-angle);
             sim.ramp(Make::Boxes, up_slope * 6.0, -angle, 12.0, 10.0);
-            let character = Character { ground_snap: snap, ..default() };
+            let character = Character {
+                ground_snap: snap,
+                ..default()
+            };
             let walker = runner_with(&mut sim, character, Vec3::new(-2.0, 0.0, 0.0));
             sim.seconds(0.2);
             sim.walk(walker, Vec3::X);
@@ -305,7 +400,11 @@ fn walking_over_a_crest_stays_on_the_ground_and_without_snap_it_flies() {
             if snap > 0.0 {
                 found.at_most(format!("{case}: ticks in the air"), airborne as f32, 0.0);
             } else {
-                found.at_least(format!("{case}: ticks in the air"), airborne as f32, 0.1 * hz as f32);
+                found.at_least(
+                    format!("{case}: ticks in the air"),
+                    airborne as f32,
+                    0.1 * hz as f32,
+                );
             }
         }
     }
@@ -317,10 +416,28 @@ fn the_steepest_limit_holds_on_everything_and_zero_on_level_ground_alone() {
     for hz in RATES {
         let mut sim = Sim::new(hz);
         sim.floor(0.0);
-        sim.ramp(Make::Boxes, Vec3::new(100.0, 20.0, 0.0), 80f32.to_radians(), 40.0, 20.0);
-        sim.ramp(Make::Boxes, Vec3::new(100.0, 20.0, 40.0), 3f32.to_radians(), 40.0, 20.0);
-        let all = Character { max_slope: core::f32::consts::FRAC_PI_2, ..default() };
-        let none = Character { max_slope: 0.0, ..default() };
+        sim.ramp(
+            Make::Boxes,
+            Vec3::new(100.0, 20.0, 0.0),
+            80f32.to_radians(),
+            40.0,
+            20.0,
+        );
+        sim.ramp(
+            Make::Boxes,
+            Vec3::new(100.0, 20.0, 40.0),
+            3f32.to_radians(),
+            40.0,
+            20.0,
+        );
+        let all = Character {
+            max_slope: core::f32::consts::FRAC_PI_2,
+            ..default()
+        };
+        let none = Character {
+            max_slope: 0.0,
+            ..default()
+        };
         let steep = foot_on_slope(Vec3::new(100.0, 20.0, 0.0), 80f32.to_radians(), 0.3);
         let gentle = foot_on_slope(Vec3::new(100.0, 20.0, 40.0), 3f32.to_radians(), 0.3);
         let holder = runner_with(&mut sim, all, steep);
@@ -330,8 +447,16 @@ fn the_steepest_limit_holds_on_everything_and_zero_on_level_ground_alone() {
         let start = [holder, slider, walker].map(|c| sim.position(c));
         sim.walk(walker, Vec3::NEG_X);
         sim.seconds(1.0);
-        found.at_most(format!("{hz} Hz: holds on 80°"), sim.position(holder).distance(start[0]), 0.001);
-        found.at_least(format!("{hz} Hz: slides on 3°"), sim.position(slider).distance(start[1]), 0.1);
+        found.at_most(
+            format!("{hz} Hz: holds on 80°"),
+            sim.position(holder).distance(start[0]),
+            0.001,
+        );
+        found.at_least(
+            format!("{hz} Hz: slides on 3°"),
+            sim.position(slider).distance(start[1]),
+            0.1,
+        );
         found.within(
             format!("{hz} Hz: walks on the level"),
             sim.position(walker).distance(start[2]),

@@ -72,7 +72,12 @@ fn pass(found: &mut Findings, case: &str, hz: f64, stairs: &Stairs, up: bool, de
     };
     found.at_most(format!("{case}: time over ideal"), time / ideal, 1.5);
     let wanted = if up { stairs.height() } else { 0.0 };
-    found.near(format!("{case}: height reached"), local(&sim).y, wanted, 0.002);
+    found.near(
+        format!("{case}: height reached"),
+        local(&sim).y,
+        wanted,
+        0.002,
+    );
     let (deep, _) = depth(&mut sim, walker);
     found.at_most(format!("{case}: depth"), deep, 0.001);
     time
@@ -88,8 +93,8 @@ fn pass_at_every_rate(found: &mut Findings, stairs: &Stairs, name: &str) {
                 stairs.make,
                 if up { "up" } else { "down" },
             );
-            let times = RATES
-                .map(|hz| pass(found, &format!("{case} {hz} Hz"), hz, stairs, up, degrees));
+            let times =
+                RATES.map(|hz| pass(found, &format!("{case} {hz} Hz"), hz, stairs, up, degrees));
             let (least, most) = times
                 .iter()
                 .fold((f32::MAX, f32::MIN), |(a, b), t| (a.min(*t), b.max(*t)));
@@ -144,7 +149,11 @@ fn low_stairs_under_a_ceiling_lower_than_the_step_height_are_walked_alike() {
     let mut found = Findings::new();
     for make in Make::ALL {
         for tread in [0.25, 0.3, 0.4] {
-            pass_at_every_rate(&mut found, &flight(0.2, tread, make, Some(ceiling)), "tight");
+            pass_at_every_rate(
+                &mut found,
+                &flight(0.2, tread, make, Some(ceiling)),
+                "tight",
+            );
         }
     }
 }
@@ -169,7 +178,11 @@ fn stairs_are_climbed_while_hugging_a_side_wall() {
                 airborne += usize::from(!sim.state(walker).on_ground());
             }
             let case = format!("{hz} Hz {make:?}");
-            found.at_least(format!("{case}: reached"), sim.position(walker).x, stairs.last_riser() + 1.0);
+            found.at_least(
+                format!("{case}: reached"),
+                sim.position(walker).x,
+                stairs.last_riser() + 1.0,
+            );
             found.at_most(format!("{case}: ticks in the air"), airborne as f32, 0.0);
         }
     }
@@ -182,7 +195,8 @@ fn stairs_on_tilted_ground_are_climbed() {
         for (axis, degrees) in [(Vec3::X, 10.0), (Vec3::Z, 8.0), (Vec3::Z, -8.0)] {
             let mut sim = Sim::new(hz);
             let stairs = flight(0.15, 0.4, Make::Boxes, None);
-            let base = Transform::from_rotation(Quat::from_axis_angle(axis, f32::to_radians(degrees)));
+            let base =
+                Transform::from_rotation(Quat::from_axis_angle(axis, f32::to_radians(degrees)));
             sim.stairs(&stairs, base);
             let walker = runner(&mut sim, base.transform_point(Vec3::new(-1.0, 0.05, 0.0)));
             sim.seconds(0.3);
@@ -191,19 +205,35 @@ fn stairs_on_tilted_ground_are_climbed() {
             sim.seconds(f64::from(ideal) * 1.5);
             let reached = base.rotation.inverse() * sim.position(walker);
             let case = format!("{hz} Hz tilted {degrees}° about {axis}");
-            found.at_least(format!("{case}: reached"), reached.x, stairs.last_riser() + 0.5);
+            found.at_least(
+                format!("{case}: reached"),
+                reached.x,
+                stairs.last_riser() + 0.5,
+            );
         }
     }
 }
 
 /// Walks at a block with its near face at x = 1 for a second and returns where the foot ends.
-fn try_block(hz: f64, character: Character, height: f32, depth: f32, degrees: f32) -> (Vec3, Vec<Stepped>) {
+fn try_block(
+    hz: f64,
+    character: Character,
+    height: f32,
+    depth: f32,
+    degrees: f32,
+) -> (Vec3, Vec<Stepped>) {
     let mut sim = Sim::new(hz);
     record(&mut sim);
     sim.floor(0.0);
-    sim.block(Vec3::new(1.0 + depth * 0.5, height * 0.5, 0.0), Vec3::new(depth, height, 30.0));
+    sim.block(
+        Vec3::new(1.0 + depth * 0.5, height * 0.5, 0.0),
+        Vec3::new(depth, height, 30.0),
+    );
     // Behind it a wall, so that narrow ledges stay narrow.
-    sim.block(Vec3::new(1.0 + depth + 0.5, 2.0, 0.0), Vec3::new(1.0, 4.0, 30.0));
+    sim.block(
+        Vec3::new(1.0 + depth + 0.5, 2.0, 0.0),
+        Vec3::new(1.0, 4.0, 30.0),
+    );
     let walker = runner_with(&mut sim, character, Vec3::ZERO);
     sim.seconds(0.2);
     sim.walk(walker, heading(degrees));
@@ -218,14 +248,22 @@ fn a_step_up_to_the_step_height_is_climbed_and_none_above() {
         for limit in [0.2, 0.4, 0.6] {
             for (part, climbs) in [(0.7, true), (0.97, true), (1.04, false), (1.5, false)] {
                 let character = Character {
-                    step: Some(StepConfig { height: limit, ..default() }),
+                    step: Some(StepConfig {
+                        height: limit,
+                        ..default()
+                    }),
                     ..default()
                 };
                 let height = limit * part;
                 let (foot, stepped) = try_block(hz, character, height, 3.0, 0.0);
                 let case = format!("{hz} Hz limit {limit} block {height}");
                 // Below the radius a round bottom could be pushed up an edge; it must not be.
-                found.near(case.clone(), foot.y, if climbs { height } else { 0.0 }, 0.002);
+                found.near(
+                    case.clone(),
+                    foot.y,
+                    if climbs { height } else { 0.0 },
+                    0.002,
+                );
                 found.holds(format!("{case}: event"), stepped.is_empty() != climbs);
                 let risen: f32 = stepped.iter().map(|step| step.height).sum();
                 if climbs {
@@ -240,7 +278,10 @@ fn a_step_up_to_the_step_height_is_climbed_and_none_above() {
 fn without_step_climbing_a_kerb_is_a_wall() {
     let mut found = Findings::new();
     for hz in RATES {
-        let none = Character { step: None, ..default() };
+        let none = Character {
+            step: None,
+            ..default()
+        };
         let (foot, stepped) = try_block(hz, none, 0.25, 3.0, 0.0);
         found.near(format!("{hz} Hz: kerb"), foot.y, 0.0, 0.002);
         found.holds(format!("{hz} Hz: no step told"), stepped.is_empty());
@@ -253,7 +294,10 @@ fn a_ledge_narrower_than_the_minimum_width_is_not_climbed() {
     for hz in RATES {
         for (depth, climbs) in [(0.05, false), (0.15, false), (0.75, true), (1.0, true)] {
             let character = Character {
-                step: Some(StepConfig { min_width: 0.2, ..default() }),
+                step: Some(StepConfig {
+                    min_width: 0.2,
+                    ..default()
+                }),
                 ..default()
             };
             let (foot, _) = try_block(hz, character, 0.3, depth, 0.0);
@@ -325,7 +369,10 @@ fn a_step_never_adds_speed() {
             sim.floor(0.0);
             for i in 0..6 {
                 let x = 1.0 + i as f32;
-                sim.block(Vec3::new(x + 10.0, 0.1 + 0.1 * i as f32, 0.0), Vec3::new(20.0, 0.2 * (i + 1) as f32, 60.0));
+                sim.block(
+                    Vec3::new(x + 10.0, 0.1 + 0.1 * i as f32, 0.0),
+                    Vec3::new(20.0, 0.2 * (i + 1) as f32, 60.0),
+                );
             }
             let walker = runner(&mut sim, Vec3::new(0.0, 0.0, -10.0));
             sim.seconds(0.2);
@@ -337,7 +384,11 @@ fn a_step_never_adds_speed() {
                 let level = (sim.position(walker) - before).with_y(0.0).length();
                 fastest = fastest.max(level * hz as f32);
             }
-            found.at_most(format!("{hz} Hz {degrees}°: fastest"), fastest, SPEED * 1.001);
+            found.at_most(
+                format!("{hz} Hz {degrees}°: fastest"),
+                fastest,
+                SPEED * 1.001,
+            );
         }
     }
 }
@@ -349,9 +400,16 @@ fn a_dynamic_body_is_stepped_onto_only_if_asked() {
         for onto in [false, true] {
             let mut sim = Sim::new(hz);
             sim.floor(0.0);
-            let crate_ = sim.dynamic(Collider::cuboid(1.0, 0.125, 1.0), Transform::from_xyz(2.0, 0.125, 0.0), 5000.0);
+            let crate_ = sim.dynamic(
+                Collider::cuboid(1.0, 0.125, 1.0),
+                Transform::from_xyz(2.0, 0.125, 0.0),
+                5000.0,
+            );
             let character = Character {
-                step: Some(StepConfig { onto_dynamic: onto, ..default() }),
+                step: Some(StepConfig {
+                    onto_dynamic: onto,
+                    ..default()
+                }),
                 ..default()
             };
             let walker = runner_with(&mut sim, character, Vec3::ZERO);
@@ -389,7 +447,10 @@ fn no_step_is_taken_in_the_air() {
             high = high.max(sim.position(faller).y);
         }
         found.at_most(format!("{hz} Hz: highest"), high, 0.2);
-        found.holds(format!("{hz} Hz: no step"), take_events(&mut sim).stepped.is_empty());
+        found.holds(
+            format!("{hz} Hz: no step"),
+            take_events(&mut sim).stepped.is_empty(),
+        );
     }
 }
 
@@ -414,7 +475,11 @@ fn the_view_offset_makes_a_step_smooth_for_the_camera() {
         }
         // With a time constant of 0.08 s a tick shows 1 - exp(-dt / 0.08) of what is left, at most.
         let part = 1.0 - ops::exp(-sim.dt() / 0.08);
-        found.at_most(format!("{hz} Hz: largest rise of the view"), jump, 0.3 * part + 0.03);
+        found.at_most(
+            format!("{hz} Hz: largest rise of the view"),
+            jump,
+            0.3 * part + 0.03,
+        );
         found.at_most(format!("{hz} Hz: offset at the step"), least, -0.05);
         found.near(format!("{hz} Hz: view in the end"), last, 0.3, 0.002);
     }

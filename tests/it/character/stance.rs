@@ -17,7 +17,13 @@ fn ceiling(sim: &mut Sim, make: Make, under: f32) -> Entity {
         Make::Boxes => sim.block(Vec3::new(0.0, under + 0.5, 0.0), Vec3::new(10.0, 1.0, 10.0)),
         Make::Mesh => {
             // Faces down.
-            let mesh = embody_scenes::Patch::new(Vec3::new(-5.0, 0.0, -5.0), Vec3::X * 10.0, Vec3::Z * 10.0, 20, 20);
+            let mesh = embody_scenes::Patch::new(
+                Vec3::new(-5.0, 0.0, -5.0),
+                Vec3::X * 10.0,
+                Vec3::Z * 10.0,
+                20,
+                20,
+            );
             sim.fixed(mesh.collider(), Transform::from_xyz(0.0, under, 0.0))
         }
     }
@@ -44,15 +50,30 @@ fn crouching_and_standing_up_keep_the_foot_where_it_is() {
             set_stance(&mut sim, who, stance);
             sim.seconds(0.5);
             let case = format!("{hz} Hz {stance:?}");
-            found.near(format!("{case}: height"), sim.state(who).height, height, 1e-4);
-            found.at_most(format!("{case}: foot moved"), sim.position(who).distance(start), 1e-4);
+            found.near(
+                format!("{case}: height"),
+                sim.state(who).height,
+                height,
+                1e-4,
+            );
+            found.at_most(
+                format!("{case}: foot moved"),
+                sim.position(who).distance(start),
+                1e-4,
+            );
             found.holds(format!("{case}: on ground"), sim.state(who).on_ground());
         }
         let told = take_events(&mut sim).stance;
         found.holds(
-            format!("{hz} Hz: heights told {:?}", told.iter().map(|s| (s.from, s.to)).collect::<Vec<_>>()),
-            told.first().is_some_and(|s| s.entity == who && s.stance == Stance::Crouch && (s.from - 1.8).abs() < 1e-4)
-                && told.iter().any(|s| s.stance == Stance::Stand && (s.to - 1.8).abs() < 1e-4),
+            format!(
+                "{hz} Hz: heights told {:?}",
+                told.iter().map(|s| (s.from, s.to)).collect::<Vec<_>>()
+            ),
+            told.first().is_some_and(|s| {
+                s.entity == who && s.stance == Stance::Crouch && (s.from - 1.8).abs() < 1e-4
+            }) && told
+                .iter()
+                .any(|s| s.stance == Stance::Stand && (s.to - 1.8).abs() < 1e-4),
         );
     }
 }
@@ -77,7 +98,10 @@ fn standing_up_under_something_is_refused_with_the_reason() {
             let state = sim.state(who);
             found.near(format!("{case}: foot"), sim.position(who).y, 0.0, 0.001);
             found.at_most(format!("{case}: height"), state.height, 1.3);
-            found.holds(format!("{case}: still not standing"), state.stance != Stance::Stand);
+            found.holds(
+                format!("{case}: still not standing"),
+                state.stance != Stance::Stand,
+            );
             match sim.get::<CharacterContacts>(who).stance_refused {
                 Some(StanceRefusal::Blocked { by, room }) => {
                     found.holds(format!("{case}: by the roof"), by == roof);
@@ -88,12 +112,22 @@ fn standing_up_under_something_is_refused_with_the_reason() {
             // A height that fits is granted.
             set_stance(&mut sim, who, Stance::Height(1.2));
             sim.seconds(0.3);
-            found.near(format!("{case}: a height that fits"), sim.state(who).height, 1.2, 1e-3);
+            found.near(
+                format!("{case}: a height that fits"),
+                sim.state(who).height,
+                1.2,
+                1e-3,
+            );
             // Out from under the roof the wish that was refused comes true.
             set_stance(&mut sim, who, Stance::Stand);
             sim.walk(who, Vec3::X);
             sim.seconds(4.0);
-            found.near(format!("{case}: height outside"), sim.state(who).height, 1.8, 1e-3);
+            found.near(
+                format!("{case}: height outside"),
+                sim.state(who).height,
+                1.8,
+                1e-3,
+            );
             found.holds(format!("{case}: came out"), sim.position(who).x > 5.0);
         }
     }
@@ -145,8 +179,16 @@ fn a_ceiling_that_comes_down_and_goes_up_again_never_traps() {
         }
         found.at_most(format!("{hz} Hz: deepest in the roof"), deepest, 0.01);
         found.near(format!("{hz} Hz: foot"), sim.position(who).y, 0.0, 0.001);
-        found.near(format!("{hz} Hz: stands in the end"), sim.state(who).height, 1.8, 1e-3);
-        found.holds(format!("{hz} Hz: not crushed"), take_events(&mut sim).crushed.is_empty());
+        found.near(
+            format!("{hz} Hz: stands in the end"),
+            sim.state(who).height,
+            1.8,
+            1e-3,
+        );
+        found.holds(
+            format!("{hz} Hz: not crushed"),
+            take_events(&mut sim).crushed.is_empty(),
+        );
     }
 }
 
@@ -174,7 +216,11 @@ fn crouching_on_a_lift_under_a_fixed_ceiling_keeps_off_both() {
             0.0,
             0.01,
         );
-        found.at_most(format!("{hz} Hz: depth in the roof"), depth_in(&sim, who, roof), 0.001);
+        found.at_most(
+            format!("{hz} Hz: depth in the roof"),
+            depth_in(&sim, who, roof),
+            0.001,
+        );
     }
 }
 
@@ -194,7 +240,12 @@ fn the_same_room_that_was_left_by_crouching_is_enough_to_stand_in() {
                 sim.seconds(0.3);
                 set_stance(&mut sim, who, Stance::Stand);
                 sim.seconds(0.3);
-                found.near(format!("{hz} Hz {make:?} round {round}"), sim.state(who).height, 1.8, 1e-3);
+                found.near(
+                    format!("{hz} Hz {make:?} round {round}"),
+                    sim.state(who).height,
+                    1.8,
+                    1e-3,
+                );
             }
         }
     }
@@ -244,8 +295,13 @@ fn every_shape_crouches() {
         .collect();
     for shape in [
         CharacterShape::default(),
-        CharacterShape::Cylinder { radius: 0.3, height: 1.7 },
-        CharacterShape::Box { size: Vec3::new(0.6, 1.7, 0.4) },
+        CharacterShape::Cylinder {
+            radius: 0.3,
+            height: 1.7,
+        },
+        CharacterShape::Box {
+            size: Vec3::new(0.6, 1.7, 0.4),
+        },
         CharacterShape::ConvexHull { points },
     ] {
         for hz in RATES {
@@ -253,17 +309,34 @@ fn every_shape_crouches() {
             sim.floor(0.0);
             sim.block(Vec3::new(2.0, 1.7, 0.0), Vec3::new(1.0, 1.0, 10.0));
             let name = format!("{hz} Hz {shape:?}");
-            let who = runner_with(&mut sim, Character { shape: shape.clone(), ..default() }, Vec3::ZERO);
+            let who = runner_with(
+                &mut sim,
+                Character {
+                    shape: shape.clone(),
+                    ..default()
+                },
+                Vec3::ZERO,
+            );
             set_stance(&mut sim, who, Stance::Crouch);
             sim.seconds(0.3);
-            found.near(format!("{name}: crouched"), sim.state(who).height, 1.0, 1e-3);
+            found.near(
+                format!("{name}: crouched"),
+                sim.state(who).height,
+                1.0,
+                1e-3,
+            );
             found.near(format!("{name}: foot"), sim.position(who).y, 0.0, 0.001);
             sim.walk(who, Vec3::X);
             sim.seconds(2.0);
             found.at_least(format!("{name}: under the beam"), sim.position(who).x, 3.0);
             set_stance(&mut sim, who, Stance::Stand);
             sim.seconds(0.3);
-            found.near(format!("{name}: stands"), sim.state(who).height, shape.height(), 1e-3);
+            found.near(
+                format!("{name}: stands"),
+                sim.state(who).height,
+                shape.height(),
+                1e-3,
+            );
         }
     }
 }

@@ -51,8 +51,9 @@ impl Findings {
     pub fn at_most(&mut self, what: impl Display, measured: f32, bound: f32) {
         self.checked += 1;
         if measured.is_nan() || measured > bound {
-            self.wrong
-                .push(format!("{what}: measured {measured}, wanted at most {bound}"));
+            self.wrong.push(format!(
+                "{what}: measured {measured}, wanted at most {bound}"
+            ));
         }
     }
 
@@ -60,8 +61,9 @@ impl Findings {
     pub fn at_least(&mut self, what: impl Display, measured: f32, bound: f32) {
         self.checked += 1;
         if measured.is_nan() || measured < bound {
-            self.wrong
-                .push(format!("{what}: measured {measured}, wanted at least {bound}"));
+            self.wrong.push(format!(
+                "{what}: measured {measured}, wanted at least {bound}"
+            ));
         }
     }
 

@@ -101,13 +101,20 @@ fn a_turned_world_gives_the_same_walk_turned() {
     for hz in RATES {
         let plain = turned_course(hz, Quat::IDENTITY);
         for (name, turn) in [
-            ("quarter about z", Quat::from_rotation_z(core::f32::consts::FRAC_PI_2)),
+            (
+                "quarter about z",
+                Quat::from_rotation_z(core::f32::consts::FRAC_PI_2),
+            ),
             ("half about x", Quat::from_rotation_x(core::f32::consts::PI)),
             ("skew", Quat::from_euler(EulerRot::XYZ, 0.7, -1.1, 2.3)),
         ] {
             let turned = turned_course(hz, turn);
             for (i, (a, b)) in plain.iter().zip(&turned).enumerate() {
-                found.at_most(format!("{hz} Hz {name} leg {i}: apart"), a.distance(*b), 0.005);
+                found.at_most(
+                    format!("{hz} Hz {name} leg {i}: apart"),
+                    a.distance(*b),
+                    0.005,
+                );
             }
         }
     }
@@ -141,7 +148,11 @@ fn a_planet_is_walked_round() {
         }
         found.near(format!("{hz} Hz: lowest"), low, radius, 0.005);
         found.near(format!("{hz} Hz: highest"), high, radius, 0.005);
-        found.at_most(format!("{hz} Hz: ticks off ground or not upright"), off as f32, 0.0);
+        found.at_most(
+            format!("{hz} Hz: ticks off ground or not upright"),
+            off as f32,
+            0.0,
+        );
         // 40 m on a circle of 20 m.
         found.within(format!("{hz} Hz: way round"), angle, 2.0, 0.005);
     }
@@ -160,7 +171,11 @@ fn standing_on_the_side_of_a_planet_does_not_drift() {
         sim.seconds(1.0);
         let start = sim.position(who);
         sim.seconds(10.0);
-        found.at_most(format!("{hz} Hz: drift"), sim.position(who).distance(start), 0.001);
+        found.at_most(
+            format!("{hz} Hz: drift"),
+            sim.position(who).distance(start),
+            0.001,
+        );
         found.holds(format!("{hz} Hz: on ground"), sim.state(who).on_ground());
     }
 }
@@ -170,27 +185,54 @@ fn a_new_up_is_turned_to_at_the_asked_rate() {
     let mut found = Findings::new();
     for hz in RATES {
         let mut sim = Sim::new(hz);
-        let motor = CharacterMotor { gravity: Some(0.0), ..default() };
+        let motor = CharacterMotor {
+            gravity: Some(0.0),
+            ..default()
+        };
         let who = sim.spawn((
             Character::default(),
             motor,
-            CharacterUp { direction: UpDirection::World(Vec3::Y), turn_rate: 1.0 },
+            CharacterUp {
+                direction: UpDirection::World(Vec3::Y),
+                turn_rate: 1.0,
+            },
             Transform::IDENTITY,
         ));
         sim.seconds(0.2);
-        edit::<CharacterUp>(&mut sim, who, |up| up.direction = UpDirection::World(Vec3::X));
+        edit::<CharacterUp>(&mut sim, who, |up| {
+            up.direction = UpDirection::World(Vec3::X)
+        });
         sim.seconds(0.7);
         let up = sim.state(who).up;
         let turned = ops::acos(up.dot(Vec3::Y).clamp(-1.0, 1.0));
-        found.near(format!("{hz} Hz: turned in 0.7 s"), turned, 0.7, 1.1 / hz as f32);
+        found.near(
+            format!("{hz} Hz: turned in 0.7 s"),
+            turned,
+            0.7,
+            1.1 / hz as f32,
+        );
         let rotation = sim.get::<Transform>(who).rotation;
-        found.at_most(format!("{hz} Hz: pose follows"), (rotation * Vec3::Y).distance(up), 1e-3);
+        found.at_most(
+            format!("{hz} Hz: pose follows"),
+            (rotation * Vec3::Y).distance(up),
+            1e-3,
+        );
         sim.seconds(1.5);
-        found.at_most(format!("{hz} Hz: arrived"), sim.state(who).up.distance(Vec3::X), 1e-3);
+        found.at_most(
+            format!("{hz} Hz: arrived"),
+            sim.state(who).up.distance(Vec3::X),
+            1e-3,
+        );
         // Right over, where no axis is better than another.
-        edit::<CharacterUp>(&mut sim, who, |up| up.direction = UpDirection::World(Vec3::NEG_X));
+        edit::<CharacterUp>(&mut sim, who, |up| {
+            up.direction = UpDirection::World(Vec3::NEG_X)
+        });
         sim.seconds(4.0);
-        found.at_most(format!("{hz} Hz: turned over"), sim.state(who).up.distance(Vec3::NEG_X), 1e-3);
+        found.at_most(
+            format!("{hz} Hz: turned over"),
+            sim.state(who).up.distance(Vec3::NEG_X),
+            1e-3,
+        );
     }
 }
 
@@ -202,8 +244,10 @@ fn on_a_ship_that_rolls_and_turns_the_deck_stays_down() {
         // The whole loop in about 8 s, with roll and way.
         let path = |t: f64| {
             let t = (t - 0.5).max(0.0);
-            let turn = bevy::math::DQuat::from_rotation_z(0.8 * t) * bevy::math::DQuat::from_rotation_x(0.3 * t.sin());
-            Transform::from_xyz((5.0 * t) as f32, (2.0 * t.sin()) as f32, 0.0).with_rotation(turn.as_quat())
+            let turn = bevy::math::DQuat::from_rotation_z(0.8 * t)
+                * bevy::math::DQuat::from_rotation_x(0.3 * t.sin());
+            Transform::from_xyz((5.0 * t) as f32, (2.0 * t.sin()) as f32, 0.0)
+                .with_rotation(turn.as_quat())
         };
         let ship = sim.mover(Collider::cuboid(5.0, 0.25, 5.0), path);
         let crew = runner(&mut sim, Vec3::new(1.0, 0.25, 0.5));
@@ -245,7 +289,10 @@ fn up_along_the_ground_walks_from_the_floor_up_the_wall() {
         insert(
             &mut sim,
             who,
-            CharacterUp { direction: UpDirection::Ground, turn_rate: 10.0 },
+            CharacterUp {
+                direction: UpDirection::Ground,
+                turn_rate: 10.0,
+            },
         );
         sim.seconds(0.3);
         for _ in 0..(3.4 * hz) as usize {

@@ -45,7 +45,10 @@ fn spawn_wall(sim: &mut Sim, kind: WallKind, start: Vec3, along: Vec3) {
             for i in 0..12 {
                 for j in 0..3 {
                     let offset = Vec3::new(i as f32 - 5.5, j as f32 - 1.0, 0.0);
-                    sim.fixed(Collider::cuboid(0.5, 0.5, 0.5), at * Transform::from_translation(offset));
+                    sim.fixed(
+                        Collider::cuboid(0.5, 0.5, 0.5),
+                        at * Transform::from_translation(offset),
+                    );
                 }
             }
         }
@@ -53,7 +56,12 @@ fn spawn_wall(sim: &mut Sim, kind: WallKind, start: Vec3, along: Vec3) {
             sim.kinematic(collider, at);
         }
         WallKind::KinematicVelocity => {
-            sim.spawn((RigidBody::KinematicVelocityBased, collider, at, Velocity::default()));
+            sim.spawn((
+                RigidBody::KinematicVelocityBased,
+                collider,
+                at,
+                Velocity::default(),
+            ));
         }
         WallKind::NotPushable => {
             // A heavy dynamic body that is a wall to characters, held by locked axes.
@@ -68,7 +76,14 @@ fn spawn_wall(sim: &mut Sim, kind: WallKind, start: Vec3, along: Vec3) {
     }
 }
 
-fn glide(found: &mut Findings, kind: WallKind, hz: f64, yaw: f32, motor: CharacterMotor, name: &str) {
+fn glide(
+    found: &mut Findings,
+    kind: WallKind,
+    hz: f64,
+    yaw: f32,
+    motor: CharacterMotor,
+    name: &str,
+) {
     let mut sim = Sim::new(hz);
     sim.floor(0.0);
     let along = heading(yaw);
@@ -146,7 +161,14 @@ fn a_wall_glide_with_limited_acceleration_is_as_fast() {
     let mut found = Findings::new();
     for hz in RATES {
         for kind in KINDS {
-            glide(&mut found, kind, hz, -65.0, CharacterMotor::default(), "default");
+            glide(
+                &mut found,
+                kind,
+                hz,
+                -65.0,
+                CharacterMotor::default(),
+                "default",
+            );
         }
     }
 }
@@ -175,7 +197,12 @@ fn the_speed_of_a_glide_is_the_projection_at_every_angle() {
         for (&(walker, degrees), start) in walkers.iter().zip(start) {
             let wanted = SPEED * ops::cos(f32::to_radians(degrees));
             let measured = sim.position(walker).x - start;
-            found.within(format!("{hz} Hz {degrees}°: speed"), measured, wanted, 0.002);
+            found.within(
+                format!("{hz} Hz {degrees}°: speed"),
+                measured,
+                wanted,
+                0.002,
+            );
         }
     }
 }
@@ -188,7 +215,10 @@ fn a_row_of_thin_pillars_is_passed_without_a_stop() {
         sim.floor(0.0);
         // Gaps of 0.2 m: the capsule sinks a little into each and rolls out again.
         for i in 0..30 {
-            sim.block(Vec3::new(i as f32 * 0.4, 1.5, -0.1), Vec3::new(0.2, 3.0, 0.2));
+            sim.block(
+                Vec3::new(i as f32 * 0.4, 1.5, -0.1),
+                Vec3::new(0.2, 3.0, 0.2),
+            );
         }
         let walker = runner(&mut sim, Vec3::new(0.0, 0.0, 0.32));
         sim.seconds(0.5);
@@ -222,7 +252,12 @@ fn walking_straight_at_a_wall_stops_at_it_without_side_motion() {
             sim.seconds(1.0);
             let foot = sim.position(walker);
             let case = format!("{hz} Hz {make:?}");
-            found.near(format!("{case}: gap"), (foot - Vec3::X * 3.0).dot(face), 0.3, 0.022);
+            found.near(
+                format!("{case}: gap"),
+                (foot - Vec3::X * 3.0).dot(face),
+                0.3,
+                0.022,
+            );
             found.near(format!("{case}: side"), foot.z, 0.07, 1e-4);
             found.near(format!("{case}: height"), foot.y, 0.0, 1e-3);
             let velocity = sim.state(walker).velocity;
@@ -251,8 +286,16 @@ fn a_jump_under_a_ceiling_falls_at_once_and_keeps_its_horizontal_speed() {
         }
         // Head room 0.3 m; without a ceiling the jump would last 0.99 s.
         found.near(format!("{hz} Hz: highest"), high, 0.3, 0.022);
-        found.within(format!("{hz} Hz: distance"), sim.position(walker).x - start, 3.0, 0.005);
-        found.holds(format!("{hz} Hz: down again"), sim.state(walker).on_ground());
+        found.within(
+            format!("{hz} Hz: distance"),
+            sim.position(walker).x - start,
+            3.0,
+            0.005,
+        );
+        found.holds(
+            format!("{hz} Hz: down again"),
+            sim.state(walker).on_ground(),
+        );
     }
 }
 
@@ -277,7 +320,12 @@ fn a_wall_is_no_ground_to_jump_from() {
             }
             let case = format!("{hz} Hz {make:?}");
             found.at_most(format!("{case}: ticks with ground"), grounded as f32, 0.0);
-            found.within(format!("{case}: fall"), -sim.position(faller).y, G * 0.5, 0.04);
+            found.within(
+                format!("{case}: fall"),
+                -sim.position(faller).y,
+                G * 0.5,
+                0.04,
+            );
         }
     }
 }

@@ -1,6 +1,9 @@
 //! Counts the warnings that name an entity, for tests that run side by side in one process.
 
-use std::sync::{Mutex, Once, atomic::{AtomicU32, Ordering}};
+use std::sync::{
+    Mutex, Once,
+    atomic::{AtomicU32, Ordering},
+};
 
 use bevy::prelude::*;
 use embody_scenes::Sim;
@@ -34,7 +37,10 @@ impl Subscriber for Ear {
     fn event(&self, event: &Event<'_>) {
         let mut line = Line(String::new());
         event.record(&mut line);
-        LINES.lock().expect("no test panics while it holds this").push(line.0);
+        LINES
+            .lock()
+            .expect("no test panics while it holds this")
+            .push(line.0);
     }
     fn enter(&self, _: &span::Id) {}
     fn exit(&self, _: &span::Id) {}
