@@ -229,7 +229,7 @@ fn the_weight_of_a_character_rests_on_what_it_stands_on() {
                     weighs_on_ground: weighs,
                     ..default()
                 },
-                Vec3::new(2.0, 1.56, 0.0),
+                Vec3::new(2.0, 1.55, 0.0),
             );
             sim.seconds(0.5);
             let tilt = (sim.get::<Transform>(board).rotation * Vec3::X).y;
