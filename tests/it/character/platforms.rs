@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use bevy::{
-    math::{DQuat, DVec3, ops},
+    math::{DQuat, DVec3},
     prelude::*,
 };
 use bevy_embody::prelude::*;
