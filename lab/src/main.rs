@@ -6,7 +6,11 @@
 //! repetitions, and the cost of a world is the mean over its ticks. A burst of foreign load on the
 //! machine then spoils single values, not the result.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command line tool"
+)]
 
 mod alloc;
 mod bounds;

@@ -281,7 +281,12 @@ mod tests {
 
     #[test]
     fn tiles_are_laid_out_as_nearly_square_as_they_can_be() {
-        for (characters, tiles) in [(1, (1, 1)), (100, (1, 1)), (1000, (5, 2)), (10_000, (10, 10))] {
+        for (characters, tiles) in [
+            (1, (1, 1)),
+            (100, (1, 1)),
+            (1000, (5, 2)),
+            (10_000, (10, 10)),
+        ] {
             assert_eq!(Wavy::for_characters(characters).tiles, UVec2::from(tiles));
         }
     }
@@ -291,7 +296,10 @@ mod tests {
         let wavy = Wavy::for_characters(1000);
         for i in 0..1000 {
             let middle = wavy.middle(i / PER_TILE);
-            for p in (0..20).map(|leg| wavy.target(i, leg)).chain([wavy.start(i)]) {
+            for p in (0..20)
+                .map(|leg| wavy.target(i, leg))
+                .chain([wavy.start(i)])
+            {
                 let at = Vec2::new(p.x, p.z) - middle;
                 assert!(at.abs().max_element() < 0.5 * TILE, "{i}: {at}");
             }

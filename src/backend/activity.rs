@@ -92,7 +92,8 @@ fn cell(p: Vec3) -> [i64; 3] {
 }
 
 fn hash(x: i64, y: i64, z: i64) -> usize {
-    let mixed = (x.wrapping_mul(73_856_093)) ^ (y.wrapping_mul(19_349_663)) ^ (z.wrapping_mul(83_492_791));
+    let mixed =
+        (x.wrapping_mul(73_856_093)) ^ (y.wrapping_mul(19_349_663)) ^ (z.wrapping_mul(83_492_791));
     (mixed as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) as usize >> 48
 }
 

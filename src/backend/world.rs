@@ -11,7 +11,9 @@ use bevy_rapier3d::{
         dynamics::{RigidBody, RigidBodyType},
         geometry::{Aabb, Collider, InteractionGroups},
         math::{AngularInertia, Pose},
-        parry::{bounding_volume::BoundingVolume, partitioning::BvhNode, query::DefaultQueryDispatcher},
+        parry::{
+            bounding_volume::BoundingVolume, partitioning::BvhNode, query::DefaultQueryDispatcher,
+        },
         pipeline::QueryFilter,
     },
 };
@@ -199,9 +201,7 @@ impl<'a> PhysicsView<'a> {
             Verdict::AsIs | Verdict::Wall => {
                 if let Some(body) = body {
                     describe_motion(&mut obstacle, body, request.origin, dt);
-                    if matches!(verdict, Verdict::Wall)
-                        && obstacle.kind == ObstacleKind::Dynamic
-                    {
+                    if matches!(verdict, Verdict::Wall) && obstacle.kind == ObstacleKind::Dynamic {
                         obstacle.dynamics = None;
                     }
                 }
@@ -219,7 +219,13 @@ impl<'a> PhysicsView<'a> {
         let index = out.obstacles.len() as u32;
         out.obstacles.push(obstacle);
         let pieces = out.pieces.len();
-        out.add_shape(request, index, collider.shared_shape(), collider.position(), slack);
+        out.add_shape(
+            request,
+            index,
+            collider.shared_shape(),
+            collider.position(),
+            slack,
+        );
         if out.pieces.len() == pieces {
             out.obstacles.pop();
         }
@@ -387,11 +393,9 @@ impl PhysicsWorldsMut<'_, '_> {
                 Some(node) => node.aabb().merged(&aabb),
                 None => aabb,
             };
-            simulation.broad_phase.set_aabb(
-                &simulation.integration_parameters,
-                handle.0,
-                aabb,
-            );
+            simulation
+                .broad_phase
+                .set_aabb(&simulation.integration_parameters, handle.0, aabb);
         }
     }
 

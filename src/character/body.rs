@@ -76,7 +76,11 @@ pub(super) fn build_bodies(
             &mut CharacterBody,
             Option<&Collider>,
         ),
-        Or<(Changed<Character>, Changed<CharacterMotor>, Added<CharacterBody>)>,
+        Or<(
+            Changed<Character>,
+            Changed<CharacterMotor>,
+            Added<CharacterBody>,
+        )>,
     >,
 ) {
     for (entity, config, motor, mut state, mut body, collider) in &mut characters {
@@ -86,13 +90,22 @@ pub(super) fn build_bodies(
         }
         let first = state.height <= 0.0;
         let standing = config.shape.height();
-        let height = if first { standing } else { state.height.min(standing) };
+        let height = if first {
+            standing
+        } else {
+            state.height.min(standing)
+        };
         body.mover = if problems.iter().any(Option::is_some) {
             None
         } else {
             let mover = mover(&config.shape, height);
             if mover.is_none() {
-                warn_bad(entity, "Character::shape", "points", "points that span a volume");
+                warn_bad(
+                    entity,
+                    "Character::shape",
+                    "points",
+                    "points that span a volume",
+                );
             }
             mover
         };
@@ -115,10 +128,7 @@ pub(super) fn build_bodies(
 
 /// Gives the physics world the new outline of characters whose height changed.
 pub(super) fn resize_colliders(
-    mut characters: Query<
-        (&Character, &mut CharacterBody, &mut Collider),
-        Changed<CharacterBody>,
-    >,
+    mut characters: Query<(&Character, &mut CharacterBody, &mut Collider), Changed<CharacterBody>>,
 ) {
     for (config, mut body, mut collider) in &mut characters {
         if body.owns_collider && body.mover.is_some() && body.collider_height != body.height {
@@ -169,5 +179,7 @@ fn shrunk(config: &Character, height: f32) -> Option<Collider> {
 
 /// The one warning that a refused value gets.
 pub(super) fn warn_bad(entity: Entity, field: &str, value: &str, need: &str) {
-    tracing::warn!("{entity}: {field} is {value}, but needs {need}; the character is left where it is");
+    tracing::warn!(
+        "{entity}: {field} is {value}, but needs {need}; the character is left where it is"
+    );
 }

@@ -173,9 +173,9 @@ impl CharacterShape {
             Self::Capsule { height, .. } | Self::Cylinder { height, .. } => *height,
             Self::Box { size } => size.y,
             Self::ConvexHull { points } => {
-                let (low, high) = points
-                    .iter()
-                    .fold((f32::MAX, f32::MIN), |(low, high), p| (low.min(p.y), high.max(p.y)));
+                let (low, high) = points.iter().fold((f32::MAX, f32::MIN), |(low, high), p| {
+                    (low.min(p.y), high.max(p.y))
+                });
                 (high - low).max(0.0)
             }
         }

@@ -51,7 +51,12 @@ pub(super) fn refresh_world(
 ) {
     let dt = time.delta_secs();
     activity.clear();
-    worlds.refresh(dt, touched.iter(), |entity| own.contains(entity), &mut activity);
+    worlds.refresh(
+        dt,
+        touched.iter(),
+        |entity| own.contains(entity),
+        &mut activity,
+    );
     for (snapshot, body, pose) in &moving {
         if snapshot.active
             && let Some(mover) = &body.mover
@@ -68,7 +73,10 @@ pub(super) fn solve_characters(
     time: Res<Time>,
     worlds: PhysicsWorlds,
     activity: Res<Activity>,
-    surfaces: Query<(Option<&'static SurfaceVelocity>, Option<&'static SurfaceGrip>)>,
+    surfaces: Query<(
+        Option<&'static SurfaceVelocity>,
+        Option<&'static SurfaceGrip>,
+    )>,
     others: Query<&'static CharacterSnapshot>,
     walls: Query<(), With<NotPushable>>,
     mut characters: Query<(
@@ -153,7 +161,13 @@ pub(super) fn apply_effects(
         let report = report.bypass_change_detection();
         impulses.extend(report.impulses.drain(..).map(|i| (entity, *link, i)));
         if let Some(target) = report.target.take() {
-            worlds.move_body(link, handle, target.position, target.rotation, report.jump.take());
+            worlds.move_body(
+                link,
+                handle,
+                target.position,
+                target.rotation,
+                report.jump.take(),
+            );
         }
     }
     // Stable: one character's impulses keep the order in which it met the bodies.

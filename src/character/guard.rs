@@ -72,7 +72,11 @@ pub(super) fn keep_finite(
         }
         if !moving {
             state.velocity = Vec3::ZERO;
-            state.up = if state.up.is_finite() { state.up } else { Vec3::Y };
+            state.up = if state.up.is_finite() {
+                state.up
+            } else {
+                Vec3::Y
+            };
         }
     }
 }

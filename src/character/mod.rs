@@ -19,9 +19,9 @@ mod validate;
 
 use bevy::prelude::*;
 
-use crate::{backend::activity::Activity, schedule::EmbodySystems};
 #[cfg(doc)]
 use crate::schedule::EmbodyCorePlugin;
+use crate::{backend::activity::Activity, schedule::EmbodySystems};
 
 pub use config::{Character, CharacterShape, LeaveVelocity, SlopeSpeed, StepConfig};
 pub use events::{Crushed, Hit, Landed, LeftGround, StanceChanged, Stepped};
@@ -59,7 +59,11 @@ impl Plugin for CharacterPlugin {
             .add_systems(
                 FixedPostUpdate,
                 (
-                    (guard::keep_finite, body::build_bodies, body::resize_colliders)
+                    (
+                        guard::keep_finite,
+                        body::build_bodies,
+                        body::resize_colliders,
+                    )
                         .chain()
                         .in_set(EmbodySystems::Prepare),
                     (

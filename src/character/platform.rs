@@ -69,7 +69,8 @@ pub(super) fn carry(
         let spin = (rotation * surface.angular).as_dvec3() * f64::from(dt);
         let arm = foot + displacement - carrier.end.position.as_dvec3();
         let around = DQuat::from_scaled_axis(spin);
-        displacement += (rotation * surface.linear).as_dvec3() * f64::from(dt) + (around * arm - arm);
+        displacement +=
+            (rotation * surface.linear).as_dvec3() * f64::from(dt) + (around * arm - arm);
         turn += twist(around, state.up);
     }
     Carry {
@@ -87,8 +88,7 @@ pub(super) fn surface_velocity_at(
     point: Vec3,
 ) -> Vec3 {
     let Some(pose) = pose else { return Vec3::ZERO };
-    pose.rotation * surface.linear
-        + (pose.rotation * surface.angular).cross(point - pose.position)
+    pose.rotation * surface.linear + (pose.rotation * surface.angular).cross(point - pose.position)
 }
 
 /// The part of a rotation that turns about `axis`, radians.

@@ -48,7 +48,12 @@ pub(super) fn character(config: &Character) -> Option<Problem> {
             check.positive("Character::shape.radius", *radius);
             check.positive("Character::shape.height", *height);
             let tall = *height >= 2.0 * radius * 0.9999;
-            check.that(tall, "Character::shape.height", *height, "at least two radii");
+            check.that(
+                tall,
+                "Character::shape.height",
+                *height,
+                "at least two radii",
+            );
         }
         CharacterShape::Cylinder { radius, height } => {
             check.positive("Character::shape.radius", *radius);
@@ -72,12 +77,27 @@ pub(super) fn character(config: &Character) -> Option<Problem> {
     check.that(ok, "Character::max_slope", slope, "0 to π/2");
     if let Some(step) = &config.step {
         let ok = step.height >= 0.0 && step.height.is_finite();
-        check.that(ok, "Character::step.height", step.height, "a finite number of at least 0");
+        check.that(
+            ok,
+            "Character::step.height",
+            step.height,
+            "a finite number of at least 0",
+        );
         let ok = step.min_width >= 0.0 && step.min_width.is_finite();
-        check.that(ok, "Character::step.min_width", step.min_width, "a finite number of at least 0");
+        check.that(
+            ok,
+            "Character::step.min_width",
+            step.min_width,
+            "a finite number of at least 0",
+        );
     }
     let ok = config.ground_snap >= 0.0 && config.ground_snap.is_finite();
-    check.that(ok, "Character::ground_snap", config.ground_snap, "a finite number of at least 0");
+    check.that(
+        ok,
+        "Character::ground_snap",
+        config.ground_snap,
+        "a finite number of at least 0",
+    );
     check.not_negative("Character::recovery_speed", config.recovery_speed);
     check.positive("Character::mass", config.mass);
     check.not_negative("Character::push_strength", config.push_strength);

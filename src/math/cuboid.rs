@@ -180,7 +180,10 @@ mod tests {
                     p1 + found.normal * (depth + 0.01),
                     Vec3::Y,
                 );
-                assert!(moved.distance > 0.0, "pushed out by its depth it is free: {moved:?}");
+                assert!(
+                    moved.distance > 0.0,
+                    "pushed out by its depth it is free: {moved:?}"
+                );
             }
         }
     }
@@ -192,8 +195,12 @@ mod tests {
             rotation: Quat::IDENTITY,
             half: Vec3::ONE,
         };
-        let c = cuboid.closest_to_segment(Vec3::new(1.3, 1.4, 0.0), Vec3::new(1.3, 3.0, 0.0), Vec3::Y);
-        assert!((c.distance - 0.5).abs() < 1e-6 && !c.on_face && c.surface == Vec3::Y, "{c:?}");
+        let c =
+            cuboid.closest_to_segment(Vec3::new(1.3, 1.4, 0.0), Vec3::new(1.3, 3.0, 0.0), Vec3::Y);
+        assert!(
+            (c.distance - 0.5).abs() < 1e-6 && !c.on_face && c.surface == Vec3::Y,
+            "{c:?}"
+        );
     }
 
     #[test]
@@ -205,6 +212,9 @@ mod tests {
         };
         let hit = cuboid.cast_ray(Vec3::new(0.5, 3.0, 0.0), Vec3::NEG_Y, 10.0);
         assert_eq!(hit, Some((2.0, Vec3::Y)));
-        assert_eq!(cuboid.cast_ray(Vec3::new(1.5, 3.0, 0.0), Vec3::NEG_Y, 10.0), None);
+        assert_eq!(
+            cuboid.cast_ray(Vec3::new(1.5, 3.0, 0.0), Vec3::NEG_Y, 10.0),
+            None
+        );
     }
 }

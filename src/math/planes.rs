@@ -177,9 +177,22 @@ mod tests {
     #[test]
     fn no_sampled_motion_that_keeps_a_cone_is_nearer_than_the_answer() {
         let cone = [
-            (2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0), (1.5, 1.5), (-1.5, 1.5), (1.5, -1.5),
-            (-1.5, -1.5), (1.0, 1.75), (-1.0, 1.75), (1.0, -1.75), (-1.0, -1.75), (1.75, 1.0),
-            (-1.75, 1.0), (1.75, -1.0), (-1.75, -1.0),
+            (2.0, 0.0),
+            (-2.0, 0.0),
+            (0.0, 2.0),
+            (0.0, -2.0),
+            (1.5, 1.5),
+            (-1.5, 1.5),
+            (1.5, -1.5),
+            (-1.5, -1.5),
+            (1.0, 1.75),
+            (-1.0, 1.75),
+            (1.0, -1.75),
+            (-1.0, -1.75),
+            (1.75, 1.0),
+            (-1.75, 1.0),
+            (1.75, -1.0),
+            (-1.75, -1.0),
         ];
         let mut seed = 11;
         for count in 1..=cone.len() {
@@ -193,7 +206,10 @@ mod tests {
                 for w in &walls {
                     assert!(w.normal.dot(x) > -1e-7);
                 }
-                assert!(x.dot(v) >= -1e-9 && x.length() <= 1.0 + 1e-9, "never reversed, never faster");
+                assert!(
+                    x.dot(v) >= -1e-9 && x.length() <= 1.0 + 1e-9,
+                    "never reversed, never faster"
+                );
                 for _ in 0..50 {
                     let y = random_unit(&mut seed);
                     if walls.iter().all(|w| w.normal.dot(y) >= 0.0) {
@@ -210,9 +226,16 @@ mod tests {
     fn closing_walls_that_contradict_leave_the_firm_one_standing() {
         let mut walls = vec![
             plane(DVec3::Y, 0.0),
-            HalfSpace { normal: DVec3::NEG_Y, bound: 0.1, yields: 2 },
+            HalfSpace {
+                normal: DVec3::NEG_Y,
+                bound: 0.1,
+                yields: 2,
+            },
         ];
         let (x, crushed) = nearest_yielding(DVec3::new(0.3, -0.2, 0.0), &mut walls);
-        assert!(crushed && x.distance(DVec3::new(0.3, 0.0, 0.0)) < 1e-12, "{x}");
+        assert!(
+            crushed && x.distance(DVec3::new(0.3, 0.0, 0.0)) < 1e-12,
+            "{x}"
+        );
     }
 }

@@ -52,7 +52,11 @@ impl Triangle {
         let h0 = (p0 - self.a).dot(self.normal);
         let h1 = (p1 - self.a).dot(self.normal);
         // On the side where the segment is, the face looks at it.
-        let face = if h0 + h1 >= 0.0 { self.normal } else { -self.normal };
+        let face = if h0 + h1 >= 0.0 {
+            self.normal
+        } else {
+            -self.normal
+        };
 
         if h0 * h1 <= 0.0 && (h0 != 0.0 || h1 != 0.0) {
             let crossing = p0 + (p1 - p0) * (h0 / (h0 - h1));
@@ -72,7 +76,11 @@ impl Triangle {
             }
         }
 
-        let (near, height) = if h0.abs() <= h1.abs() { (p0, h0) } else { (p1, h1) };
+        let (near, height) = if h0.abs() <= h1.abs() {
+            (p0, h0)
+        } else {
+            (p1, h1)
+        };
         if h0 * h1 > 0.0 && self.covers(near) {
             return Closest {
                 distance: height.abs(),
@@ -134,7 +142,12 @@ mod tests {
     use super::*;
 
     fn floor() -> Triangle {
-        Triangle::new(Vec3::ZERO, Vec3::new(0.0, 0.0, 4.0), Vec3::new(4.0, 0.0, 0.0)).unwrap()
+        Triangle::new(
+            Vec3::ZERO,
+            Vec3::new(0.0, 0.0, 4.0),
+            Vec3::new(4.0, 0.0, 0.0),
+        )
+        .unwrap()
     }
 
     #[test]
@@ -169,7 +182,9 @@ mod tests {
         for _ in 0..500 {
             let mut v = || Vec3::new(next(), next(), next());
             let (a, b, c, p0, p1) = (v(), v(), v(), v(), v());
-            let Some(triangle) = Triangle::new(a, b, c) else { continue };
+            let Some(triangle) = Triangle::new(a, b, c) else {
+                continue;
+            };
             let found = triangle.closest_to_segment(p0, p1);
             let mut least = f32::MAX;
             for i in 0..=12 {
@@ -182,7 +197,10 @@ mod tests {
                 }
             }
             assert!(found.distance <= least + 1e-5, "{found:?} {least}");
-            assert!(found.distance < 0.0 || found.distance > least - 0.2, "{found:?} {least}");
+            assert!(
+                found.distance < 0.0 || found.distance > least - 0.2,
+                "{found:?} {least}"
+            );
         }
     }
 

@@ -170,8 +170,8 @@ impl Sink<'_, '_> {
         let half = (high - low) * 0.5;
         let back = Mat3::from_quat(position.rotation.inverse());
         let local = back * center;
-        let extent = back.x_axis.abs() * half.x + back.y_axis.abs() * half.y
-            + back.z_axis.abs() * half.z;
+        let extent =
+            back.x_axis.abs() * half.x + back.y_axis.abs() * half.y + back.z_axis.abs() * half.z;
         Aabb::new(local - extent, local + extent)
     }
 
@@ -190,10 +190,7 @@ impl Sink<'_, '_> {
 
     fn push(&mut self, geometry: Geometry) {
         self.neighbourhood.queries += 1;
-        let found = self
-            .request
-            .mover
-            .separation(&geometry, &self.request.pose);
+        let found = self.request.mover.separation(&geometry, &self.request.pose);
         let clearance = found.distance;
         // Also drops what is not finite.
         if clearance < self.request.reach + self.slack {

@@ -73,7 +73,11 @@ impl Dynamics {
     pub fn effective_mass(&self, point: Vec3, n: Vec3) -> f32 {
         let arm = (point - self.center).cross(n);
         let inverse = (n * n).dot(self.inverse_mass) + arm.dot(self.inverse_inertia * arm);
-        if inverse > 1.0e-12 { 1.0 / inverse } else { f32::MAX }
+        if inverse > 1.0e-12 {
+            1.0 / inverse
+        } else {
+            f32::MAX
+        }
     }
 
     /// Takes up an impulse at a point.
@@ -103,7 +107,6 @@ impl Motion {
     pub fn is_none(&self) -> bool {
         self.linear == Vec3::ZERO && self.turn == Vec3::ZERO
     }
-
 
     /// Displacement over the rest of the tick of the point that is at `point` at fraction `t`.
     pub fn rest(&self, point: Vec3, t: f32) -> Vec3 {

@@ -159,10 +159,8 @@ impl Mover {
                 pose.up,
             ),
             Core::Convex { shape, offset } => {
-                let position = Pose::from_parts(
-                    pose.position + pose.rotation * *offset,
-                    pose.rotation,
-                );
+                let position =
+                    Pose::from_parts(pose.position + pose.rotation * *offset, pose.rotation);
                 convex_to(&*shape.0, &position, geometry, pose.up)
             }
         };
@@ -238,8 +236,15 @@ fn convex_to(core: &dyn Shape, position: &Pose, geometry: &Geometry, up: Vec3) -
             let cuboid = ParryCuboid::new(c.half);
             let pose = Pose::from_parts(c.center, c.rotation);
             let found = shapes(core, position, &cuboid, &pose, up);
-            let faces = [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z]
-                .map(|n| c.rotation * n);
+            let faces = [
+                Vec3::X,
+                Vec3::Y,
+                Vec3::Z,
+                Vec3::NEG_X,
+                Vec3::NEG_Y,
+                Vec3::NEG_Z,
+            ]
+            .map(|n| c.rotation * n);
             let mut found = snap_to_face(found, &faces);
             if !found.on_face {
                 // The most upward of the faces that meet at the closest point.
@@ -269,7 +274,13 @@ fn convex_to(core: &dyn Shape, position: &Pose, geometry: &Geometry, up: Vec3) -
             found
         }
         Geometry::Capsule { a, b, radius } => {
-            let mut found = shapes(core, position, &Capsule::new(*a, *b, *radius), &identity, up);
+            let mut found = shapes(
+                core,
+                position,
+                &Capsule::new(*a, *b, *radius),
+                &identity,
+                up,
+            );
             found.on_face = true;
             found
         }
@@ -300,13 +311,7 @@ fn convex_to(core: &dyn Shape, position: &Pose, geometry: &Geometry, up: Vec3) -
 }
 
 /// Closest pair of two convex shapes.
-fn shapes(
-    a: &dyn Shape,
-    at_a: &Pose,
-    b: &dyn Shape,
-    at_b: &Pose,
-    up: Vec3,
-) -> Closest {
+fn shapes(a: &dyn Shape, at_a: &Pose, b: &dyn Shape, at_b: &Pose, up: Vec3) -> Closest {
     match query::contact(at_a, a, at_b, b, 1.0e6) {
         Ok(Some(contact)) if contact.dist.is_finite() => {
             let normal = direction_or(contact.normal2, up);

@@ -13,7 +13,11 @@ pub(super) fn climb(movement: Vec3, rungs: Vec3, out: Vec3, up: Vec3, speed: f32
     let towards = -level.dot(out);
     let rise = (towards + movement.dot(up)).clamp(-1.0, 1.0);
     let side = level - out * level.dot(out);
-    let pull = if towards > 0.0 { -out * towards * 0.5 } else { Vec3::ZERO };
+    let pull = if towards > 0.0 {
+        -out * towards * 0.5
+    } else {
+        Vec3::ZERO
+    };
     Course::constant((rungs * rise + side * 0.5 + pull) * speed)
 }
 

@@ -49,18 +49,7 @@ pub(crate) fn drive_motors(
         return;
     }
     characters.par_iter_mut().for_each(
-        |(
-            config,
-            motor,
-            intent,
-            body,
-            link,
-            up,
-            custom,
-            mut state,
-            mut snapshot,
-            mut report,
-        )| {
+        |(config, motor, intent, body, link, up, custom, mut state, mut snapshot, mut report)| {
             let Some(view) = worlds.of(link) else { return };
             if body.mover.is_none() || !view.active {
                 return;
@@ -222,7 +211,10 @@ impl Run<'_> {
         if self.state.mode == MovementMode::Fly {
             return;
         }
-        let volume = self.state.volume.and_then(|entity| volumes.get(entity).ok());
+        let volume = self
+            .state
+            .volume
+            .and_then(|entity| volumes.get(entity).ok());
         let mode = match volume {
             Some((Some(_), _, _)) => MovementMode::Swim,
             Some((_, Some(_), pose)) => {
@@ -266,7 +258,10 @@ impl Run<'_> {
             (self.state.coyote_time - self.dt).max(0.0)
         };
         let movement = limited(self.intent.movement);
-        let volume = self.state.volume.and_then(|entity| volumes.get(entity).ok());
+        let volume = self
+            .state
+            .volume
+            .and_then(|entity| volumes.get(entity).ok());
         match self.state.mode {
             MovementMode::Walk => self.on_foot(movement),
             MovementMode::Fly => {
@@ -282,7 +277,11 @@ impl Run<'_> {
                     .and_then(|(water, ..)| water.map(|water| water.flow))
                     .filter(|flow| flow.is_finite())
                     .unwrap_or(Vec3::ZERO);
-                let up = if self.intent.jump { self.state.up } else { Vec3::ZERO };
+                let up = if self.intent.jump {
+                    self.state.up
+                } else {
+                    Vec3::ZERO
+                };
                 let wish = limited(movement + up) * self.motor.swim_speed;
                 let rate = self.motor.swim_acceleration;
                 free::drift(self.state.velocity, wish, flow, rate, self.dt)

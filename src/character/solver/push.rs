@@ -47,7 +47,12 @@ impl Solver<'_> {
         // What is pressed in by friction that slowed the body is pushed out again, not followed.
         let pressed = (-touch.distance - TOUCH).max(0.0) * PRESS / self.dt;
         let closing = other - own + pressed.min(1.0);
-        if closing <= 1.0e-4 || self.impulses.iter().any(|known| known.obstacle == touch.obstacle) {
+        if closing <= 1.0e-4
+            || self
+                .impulses
+                .iter()
+                .any(|known| known.obstacle == touch.obstacle)
+        {
             return;
         }
         let mass = body.effective_mass(touch.point, n);

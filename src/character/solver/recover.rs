@@ -12,9 +12,11 @@ use crate::{
 impl Solver<'_> {
     /// Moves out of what the character is inside of at the start of the tick.
     pub fn recover(&mut self, p: Vec3) -> Vec3 {
-        let inside = self.near.pieces.iter().any(|piece| {
-            piece.clearance < self.near.obstacle(piece).skin - TOUCH
-        });
+        let inside = self
+            .near
+            .pieces
+            .iter()
+            .any(|piece| piece.clearance < self.near.obstacle(piece).skin - TOUCH);
         if !inside {
             return p;
         }
@@ -34,7 +36,11 @@ impl Solver<'_> {
                     mass / (mass + self.config.mass)
                 }),
             };
-            self.planes.push(HalfSpace::new(touch.normal, (depth * share).min(most), obstacle.kind as u8));
+            self.planes.push(HalfSpace::new(
+                touch.normal,
+                (depth * share).min(most),
+                obstacle.kind as u8,
+            ));
         }
         let (x, _) = nearest_yielding(bevy::math::DVec3::ZERO, self.planes);
         let x = x.as_vec3().clamp_length_max(most);

@@ -99,7 +99,11 @@ impl Solver<'_> {
     fn lift(&self, rest: Vec3, t: f32) -> Vec3 {
         let mut lift = 0.0f32;
         let mut face = false;
-        for touch in self.touches.iter().filter(|touch| touch.bend == Bend::Ground) {
+        for touch in self
+            .touches
+            .iter()
+            .filter(|touch| touch.bend == Bend::Ground)
+        {
             let push = self.push_of(touch.obstacle, touch.point, touch.normal, t);
             let need = push - (touch.distance - HIT).max(0.0) - touch.normal.dot(rest);
             let needed = need / touch.normal.dot(self.up);
@@ -135,7 +139,13 @@ impl Solver<'_> {
                 continue;
             }
             let yields = self.near.obstacles[touch.obstacle as usize].kind as u8;
-            self.stop(touch.normal, self.pace_of(&touch, touch.normal, t), yields, &touch, ground);
+            self.stop(
+                touch.normal,
+                self.pace_of(&touch, touch.normal, t),
+                yields,
+                &touch,
+                ground,
+            );
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
@@ -186,7 +196,11 @@ impl Solver<'_> {
             yields,
             lifts: ground && touch.bend == Bend::Ground,
         };
-        match self.stops.iter_mut().find(|s| s.normal.dot(normal) > 0.9999) {
+        match self
+            .stops
+            .iter_mut()
+            .find(|s| s.normal.dot(normal) > 0.9999)
+        {
             Some(known) => *known = stop,
             None => self.stops.push(stop),
         }
@@ -201,9 +215,10 @@ impl Solver<'_> {
             if closing <= 1.0e-6 {
                 continue;
             }
-            let known = self.blockers.iter_mut().find(|b| {
-                b.obstacle == touch.obstacle && b.normal.dot(touch.normal) > 0.999
-            });
+            let known = self
+                .blockers
+                .iter_mut()
+                .find(|b| b.obstacle == touch.obstacle && b.normal.dot(touch.normal) > 0.999);
             let speed = if t >= 1.0 { 0.0 } else { closing * per_second };
             if let Some(known) = known {
                 known.speed = known.speed.max(speed);

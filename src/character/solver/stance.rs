@@ -23,7 +23,11 @@ impl Solver<'_> {
         // Touching a wall from the side is no obstacle; being under something is.
         if s >= 1.0 {
             self.touch(p + lift, 1.0, -TOUCH);
-            if self.touches.iter().all(|touch| touch.normal.dot(self.up) > -0.05) {
+            if self
+                .touches
+                .iter()
+                .all(|touch| touch.normal.dot(self.up) > -0.05)
+            {
                 return Growth::Free;
             }
             s = 0.0;

@@ -21,7 +21,11 @@ impl Tick<'_, '_, '_, '_> {
         let up = pose.up;
         let step = self.config.step.map_or(0.0, |step| step.height);
         let min_width = self.config.step.map_or(0.0, |step| step.min_width);
-        let below = if self.state.on_ground() { self.config.ground_snap } else { 0.0 };
+        let below = if self.state.on_ground() {
+            self.config.ground_snap
+        } else {
+            0.0
+        };
         let above = growth + if wide { step + 0.05 } else { 0.0 };
         let margin = 0.05 + if wide { mover.width + min_width } else { 0.0 };
         let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
@@ -31,8 +35,8 @@ impl Tick<'_, '_, '_, '_> {
             low = low.min(p);
             high = high.max(p);
         }
-        let grow = Vec3::splat(mover.width + margin) * (Vec3::ONE - up.abs() * 0.9)
-            + up.abs() * 0.05;
+        let grow =
+            Vec3::splat(mover.width + margin) * (Vec3::ONE - up.abs() * 0.9) + up.abs() * 0.05;
         let request = Request {
             mover,
             pose,

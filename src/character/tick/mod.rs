@@ -196,7 +196,9 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
                 other => other,
             };
         }
-        if !walks && support.state == GroundState::OnGround && self.state.mode != MovementMode::Climb
+        if !walks
+            && support.state == GroundState::OnGround
+            && self.state.mode != MovementMode::Climb
         {
             support.state = GroundState::Unsupported;
         }
@@ -282,10 +284,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
 
     /// Finds out whether the character is caught between things that close.
     fn note_crush(&mut self, solver: &mut Solver, p: Vec3) {
-        let crushed = solver
-            .pinned
-            .then(|| solver.crusher(p, CRUSH))
-            .flatten();
+        let crushed = solver.pinned.then(|| solver.crusher(p, CRUSH)).flatten();
         if let Some((by, against, depth)) = crushed
             && !self.state.crushed
         {
@@ -294,6 +293,4 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         }
         self.state.crushed = crushed.is_some();
     }
-
 }
-

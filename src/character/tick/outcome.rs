@@ -58,7 +58,10 @@ impl Tick<'_, '_, '_, '_> {
             }
             let level = self.state.velocity - up * self.state.velocity.dot(up);
             let length = if same || was_on_ground {
-                self.state.velocity.length().min(before.length().max(level.length()))
+                self.state
+                    .velocity
+                    .length()
+                    .min(before.length().max(level.length()))
             } else {
                 level.length()
             };
@@ -92,7 +95,11 @@ impl Tick<'_, '_, '_, '_> {
             let speed = (ground.velocity - before).dot(ground.normal).max(0.0);
             self.report.happened.landed = Some((entity, speed, self.state.air_time));
         }
-        self.state.air_time = if on_ground { 0.0 } else { self.state.air_time + dt };
+        self.state.air_time = if on_ground {
+            0.0
+        } else {
+            self.state.air_time + dt
+        };
         if on_ground {
             self.state.jumping = false;
         }
@@ -119,7 +126,10 @@ impl Tick<'_, '_, '_, '_> {
         let surface = self.around.surface_velocity(obstacle.entity);
         let conveyor = platform::surface_velocity_at(
             &surface,
-            self.around.view.carrier(obstacle.entity, self.around.dt).map(|c| c.end),
+            self.around
+                .view
+                .carrier(obstacle.entity, self.around.dt)
+                .map(|c| c.end),
             point,
         );
         let grip = self
@@ -142,12 +152,7 @@ impl Tick<'_, '_, '_, '_> {
         }
     }
 
-    fn note_step(
-        &mut self,
-        solver: &Solver,
-        climbed: Option<(f32, f32)>,
-        snapped: f32,
-    ) {
+    fn note_step(&mut self, solver: &Solver, climbed: Option<(f32, f32)>, snapped: f32) {
         let up = self.state.up;
         self.contacts.step = solver.step;
         self.contacts.snapped = snapped;
@@ -160,10 +165,15 @@ impl Tick<'_, '_, '_, '_> {
         self.state.stepping = climbed.is_some();
         let time = self.config.step_smoothing;
         if time > 0.0 {
-            let rise = climbed.map_or(0.0, |(rise, _)| rise) - if snapped > 5.0e-3 { snapped } else { 0.0 };
+            let rise = climbed.map_or(0.0, |(rise, _)| rise)
+                - if snapped > 5.0e-3 { snapped } else { 0.0 };
             let fade = ops::exp(-self.around.dt / time);
             let offset = self.state.view_offset * fade - up * rise;
-            self.state.view_offset = if offset.length_squared() > 1.0e-8 { offset } else { Vec3::ZERO };
+            self.state.view_offset = if offset.length_squared() > 1.0e-8 {
+                offset
+            } else {
+                Vec3::ZERO
+            };
         } else {
             self.state.view_offset = Vec3::ZERO;
         }
@@ -183,12 +193,17 @@ impl Tick<'_, '_, '_, '_> {
         if !self.config.weighs_on_ground || support.state != GroundState::OnGround {
             return;
         }
-        let Some(index) = support.obstacle else { return };
+        let Some(index) = support.obstacle else {
+            return;
+        };
         let obstacle = &solver.near.obstacles[index as usize];
         if obstacle.dynamics.is_none() || obstacle.kind != ObstacleKind::Dynamic {
             return;
         }
-        let gravity = self.motor.gravity.unwrap_or(self.around.view.gravity.length())
+        let gravity = self
+            .motor
+            .gravity
+            .unwrap_or(self.around.view.gravity.length())
             * self.motor.gravity_scale;
         self.report.impulses.push(BodyImpulse {
             body: obstacle.body,
@@ -226,7 +241,11 @@ impl Tick<'_, '_, '_, '_> {
                 self.report.touching.push(obstacle.entity);
             }
             if !self.report.touched.contains(&obstacle.entity)
-                && !self.report.hits.iter().any(|hit| hit.other == obstacle.entity)
+                && !self
+                    .report
+                    .hits
+                    .iter()
+                    .any(|hit| hit.other == obstacle.entity)
             {
                 self.report.hits.push(NewHit {
                     other: obstacle.entity,

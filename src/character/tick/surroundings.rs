@@ -23,7 +23,14 @@ pub(in crate::character) struct Surroundings<'a, 'w, 's> {
     pub filter: Option<&'a CharacterFilter>,
     pub ignores: Option<&'a CharacterIgnores>,
     pub activity: &'a Activity,
-    pub surfaces: &'a Query<'w, 's, (Option<&'static SurfaceVelocity>, Option<&'static SurfaceGrip>)>,
+    pub surfaces: &'a Query<
+        'w,
+        's,
+        (
+            Option<&'static SurfaceVelocity>,
+            Option<&'static SurfaceGrip>,
+        ),
+    >,
     pub others: &'a Query<'w, 's, &'static CharacterSnapshot>,
     pub walls: &'a Query<'w, 's, (), With<NotPushable>>,
 }
@@ -57,4 +64,3 @@ impl Surroundings<'_, '_, '_> {
             .unwrap_or_default()
     }
 }
-
