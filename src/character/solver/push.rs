@@ -24,8 +24,10 @@ pub(crate) struct Impulse {
     pub obstacle: u32,
     /// Entity of the body.
     pub body: Entity,
-    /// Newton-seconds, world axes.
+    /// What it receives at once, newton-seconds, world axes.
     pub impulse: Vec3,
+    /// What it receives evenly over the tick, newton-seconds, world axes.
+    pub work: Vec3,
     /// Where, relative to the neighbourhood's origin.
     pub point: Vec3,
 }
@@ -50,7 +52,10 @@ impl Solver<'_> {
         } else {
             let foot = self.pose.position.dot(self.up);
             let tall = 2.0 * self.mover.middle;
-            let height = body.center.dot(self.up).clamp(foot + 0.1 * tall, foot + 0.9 * tall);
+            let height = body
+                .center
+                .dot(self.up)
+                .clamp(foot + 0.1 * tall, foot + 0.9 * tall);
             touch.point + self.up * (height - touch.point.dot(self.up))
         };
         let own = rest.dot(n) / (self.dt * (1.0 - t).max(1.0e-3));
@@ -77,6 +82,10 @@ impl Solver<'_> {
             mass * self.config.mass / (mass + self.config.mass)
         };
         let full = reduced * closing;
+        // What stands on a body weighs on it by a force of its own; only a landing is an impact.
+        if under_foot && self.grounded {
+            return;
+        }
         // What the body brings in itself is stopped whole; beyond that it is the character who works.
         let received = if self.config.pushed_by_bodies {
             (reduced * other).clamp(0.0, full)
@@ -88,15 +97,22 @@ impl Solver<'_> {
         } else {
             (full - received).min(self.config.push_strength * self.dt)
         };
-        let impulse = -n * (received + given);
-        if impulse == Vec3::ZERO {
+        let axis = if under_foot { self.up } else { n };
+        let (impulse, work) = if under_foot {
+            (-axis * (received + given), Vec3::ZERO)
+        } else {
+            (-axis * received, -axis * given)
+        };
+        if impulse == Vec3::ZERO && work == Vec3::ZERO {
             return;
         }
-        body.apply(impulse, if under_foot { point } else { body.center });
-        let (linear, turn) = (
-            body.linear_velocity * self.dt,
-            body.angular_velocity * self.dt,
-        );
+        let at = if under_foot { point } else { body.center };
+        body.apply(impulse, at);
+        let before = body;
+        body.apply(work, at);
+        // Work is done evenly over the tick, so half of it counts for the way.
+        let linear = (before.linear_velocity + body.linear_velocity) * (0.5 * self.dt);
+        let turn = body.angular_velocity * self.dt;
         let entity = obstacle.body;
         let center = body.center;
         // All colliders of the body go with it.
@@ -113,6 +129,7 @@ impl Solver<'_> {
             obstacle: touch.obstacle,
             body: entity,
             impulse,
+            work,
             point,
         });
     }
