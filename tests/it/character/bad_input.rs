@@ -170,7 +170,7 @@ fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from
                 &format!("{field} = {value}"),
                 |sim, who| edit::<Character>(sim, who, |character| spoil(character, value)),
                 |sim, who| {
-                    edit::<Character>(sim, who, |character| *character = Character::default();)
+                    edit::<Character>(sim, who, |character| *character = Character::default());
                 },
                 value.is_nan() || value < 0.0 || field == "radius" || field == "height",
             );
