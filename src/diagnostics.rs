@@ -10,7 +10,7 @@ use bevy::{
 /// What the characters of the last tick cost.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CharacterDiagnostics {
-    /// Time that all characters together took, summed over threads.
+    /// Time that all characters together took, from the first of the tick's systems to the last.
     pub tick_time: Duration,
     /// Number of geometry queries (distance evaluations) of all characters together.
     pub queries: u32,

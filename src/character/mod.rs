@@ -6,6 +6,7 @@ mod drive;
 mod events;
 mod guard;
 mod intent;
+mod measure;
 mod motor;
 mod output;
 mod platform;
@@ -23,6 +24,7 @@ use bevy::prelude::*;
 use crate::schedule::EmbodyCorePlugin;
 use crate::{
     backend::{activity::Activity, world::ForcedBodies},
+    diagnostics::CharacterDiagnostics,
     schedule::EmbodySystems,
 };
 
@@ -60,6 +62,7 @@ impl Plugin for CharacterPlugin {
             .register_type::<NotPushable>()
             .init_resource::<Activity>()
             .init_resource::<ForcedBodies>()
+            .init_resource::<measure::Stopwatch>()
             .add_systems(
                 FixedPostUpdate,
                 (
@@ -71,10 +74,12 @@ impl Plugin for CharacterPlugin {
                         .chain()
                         .in_set(EmbodySystems::Prepare),
                     (
+                        measure::start.run_if(resource_exists::<CharacterDiagnostics>),
                         motor::drive_motors,
                         drive::refresh_world,
                         drive::solve_characters,
                         drive::apply_effects,
+                        measure::stop.run_if(resource_exists::<CharacterDiagnostics>),
                     )
                         .chain()
                         .in_set(EmbodySystems::Drive),
