@@ -49,17 +49,21 @@ impl Triangle {
 
     /// Closest pair with the segment `p0 p1`.
     pub fn closest_to_segment(&self, p0: Vec3, p1: Vec3) -> Closest {
-        let h0 = (p0 - self.a).dot(self.normal);
-        let h1 = (p1 - self.a).dot(self.normal);
+        let n = self.normal;
+        let h0 = (p0 - self.a).dot(n);
+        let h1 = (p1 - self.a).dot(n);
         // On the side where the segment is, the face looks at it.
-        let face = if h0 + h1 >= 0.0 {
-            self.normal
-        } else {
-            -self.normal
-        };
+        let face = if h0 + h1 >= 0.0 { n } else { -n };
+        let edges = [(self.a, self.b), (self.b, self.c), (self.c, self.a)];
+        // How far inside each edge the ends project, times the edge's length.
+        let inward = edges.map(|(q0, q1)| n.cross(q1 - q0));
+        let inside0 = [0, 1, 2].map(|i| inward[i].dot(p0 - edges[i].0));
+        let inside1 = [0, 1, 2].map(|i| inward[i].dot(p1 - edges[i].0));
+        let covers = |inside: &[f32; 3]| inside.iter().all(|i| *i >= 0.0);
 
         if h0 * h1 <= 0.0 && (h0 != 0.0 || h1 != 0.0) {
-            let crossing = p0 + (p1 - p0) * (h0 / (h0 - h1));
+            let t = h0 / (h0 - h1);
+            let crossing = p0 + (p1 - p0) * t;
             if self.covers(crossing) {
                 let depth = if h0 + h1 >= 0.0 {
                     -h0.min(h1)
@@ -76,16 +80,16 @@ impl Triangle {
             }
         }
 
-        let (near, height) = if h0.abs() <= h1.abs() {
-            (p0, h0)
+        let (near, height, over) = if h0.abs() <= h1.abs() {
+            (p0, h0, &inside0)
         } else {
-            (p1, h1)
+            (p1, h1, &inside1)
         };
-        if h0 * h1 > 0.0 && self.covers(near) {
+        if h0 * h1 > 0.0 && covers(over) {
             return Closest {
                 distance: height.abs(),
                 normal: face,
-                point: near - self.normal * height,
+                point: near - n * height,
                 on_face: true,
                 surface: face,
             };
@@ -94,7 +98,16 @@ impl Triangle {
         let mut best = f32::MAX;
         let mut on_segment = p0;
         let mut on_triangle = self.a;
-        for (q0, q1) in [(self.a, self.b), (self.b, self.c), (self.c, self.a)] {
+        for (i, (q0, q1)) in edges.into_iter().enumerate() {
+            // The closest point is on an edge only if the segment reaches outside of that edge, and
+            // no closer than it is outside as a whole.
+            let most = inside0[i].max(inside1[i]);
+            let outside = most.min(0.0);
+            if inside0[i].min(inside1[i]) > 0.0
+                || outside * outside > best * inward[i].length_squared()
+            {
+                continue;
+            }
             let (s, t) = segment::closest_parameters(p0, p1, q0, q1);
             let x = p0 + (p1 - p0) * s;
             let y = q0 + (q1 - q0) * t;
@@ -105,12 +118,12 @@ impl Triangle {
                 on_triangle = y;
             }
         }
-        for (p, h) in [(p0, h0), (p1, h1)] {
-            if h * h < best && self.covers(p) {
+        for (p, h, inside) in [(p0, h0, &inside0), (p1, h1, &inside1)] {
+            if h * h < best && covers(inside) {
                 return Closest {
                     distance: h.abs(),
-                    normal: if h >= 0.0 { self.normal } else { -self.normal },
-                    point: p - self.normal * h,
+                    normal: if h >= 0.0 { n } else { -n },
+                    point: p - n * h,
                     on_face: true,
                     surface: face,
                 };
@@ -124,6 +137,24 @@ impl Triangle {
             on_face: normal.dot(face) > 0.999_99,
             surface: face,
         }
+    }
+
+    /// Whether the segment `p0 p1` is farther than `distance` from the triangle for certain: on one
+    /// side of its plane, or outside of one of its edges. Cheap, and may miss.
+    pub fn is_beyond(&self, p0: Vec3, p1: Vec3, distance: f32) -> bool {
+        let n = self.normal;
+        let h0 = (p0 - self.a).dot(n);
+        let h1 = (p1 - self.a).dot(n);
+        if h0.min(h1) > distance || h0.max(h1) < -distance {
+            return true;
+        }
+        [(self.a, self.b), (self.b, self.c), (self.c, self.a)]
+            .into_iter()
+            .any(|(q0, q1)| {
+                let inward = n.cross(q1 - q0);
+                let most = inward.dot(p0 - q0).max(inward.dot(p1 - q0));
+                most < 0.0 && most * most > distance * distance * inward.length_squared()
+            })
     }
 
     /// Distance along `dir` at which a ray meets either side, at most `max`.
@@ -202,6 +233,28 @@ mod tests {
                 "{found:?} {least}"
             );
         }
+    }
+
+    #[test]
+    fn what_is_called_beyond_a_distance_is() {
+        let mut seed = 3u32;
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        let mut beyond = 0;
+        for _ in 0..2000 {
+            let mut v = || Vec3::new(next(), next(), next());
+            let (a, b, c, p0, p1) = (v(), v(), v(), v(), v());
+            let Some(triangle) = Triangle::new(a, b, c) else { continue };
+            let distance = next().abs();
+            if triangle.is_beyond(p0, p1, distance) {
+                beyond += 1;
+                let found = triangle.closest_to_segment(p0, p1).distance;
+                assert!(found > distance - 1e-5, "{found} {distance}");
+            }
+        }
+        assert!(beyond > 200, "{beyond}");
     }
 
     #[test]

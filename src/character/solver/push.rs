@@ -95,6 +95,8 @@ impl Solver<'_> {
             }
         }
         self.near.moving = true;
+        // Where it can get to now was not known when the pieces were gathered.
+        self.near.slack = f32::INFINITY;
         self.impulses.push(Impulse {
             obstacle: touch.obstacle,
             body: entity,

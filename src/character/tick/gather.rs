@@ -54,16 +54,7 @@ impl Tick<'_, '_, '_, '_> {
             |collider, body| around.judge(collider, body),
             &mut scratch.near,
         );
-        let near = &mut scratch.near;
-        // The order of the search tree depends on what else there is; geometry does not.
-        near.pieces.sort_unstable_by(|a, b| {
-            a.clearance
-                .total_cmp(&b.clearance)
-                .then(a.normal.x.total_cmp(&b.normal.x))
-                .then(a.normal.y.total_cmp(&b.normal.y))
-                .then(a.normal.z.total_cmp(&b.normal.z))
-                .then(a.part.cmp(&b.part))
-        });
+        scratch.near.sort();
         self.share_gaps(scratch, displacement);
     }
 
@@ -83,6 +74,7 @@ impl Tick<'_, '_, '_, '_> {
             let gap = piece.clearance - obstacle.skin;
             if mine > 0.0 && theirs > 0.0 && gap > 0.0 {
                 obstacle.skin += gap * theirs / (mine + theirs);
+                near.slack = near.slack.max(obstacle.skin);
             }
         }
     }

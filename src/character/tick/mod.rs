@@ -148,9 +148,14 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         self.gather(scratch, &mover, pose, displacement, growth, false);
         let steps = grounded && walks && self.config.step.is_some();
         let near = &scratch.near;
+        // Only what is too steep stops feet that are on the ground. On the way down an edge comes to
+        // be touched at a steeper angle than it is seen now.
+        let steep = ops::cos(self.config.max_slope) + 0.01;
+        let sinking = (-displacement.dot(up)).max(0.0) / mover.width.max(0.01);
         let wall_near = steps
             && near.pieces.iter().any(|piece| {
-                piece.normal.dot(up) < 0.95
+                let limit = if piece.on_face { steep } else { steep + 0.05 + sinking };
+                piece.normal.dot(up) < limit
                     && piece.clearance - near.obstacle(piece).skin < displacement.length() + 0.01
             });
         if wall_near {
