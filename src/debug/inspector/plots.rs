@@ -1,7 +1,7 @@
 //! Curves over the last seconds.
 
 use bevy_egui::egui::{Color32, Rangef, Ui};
-use egui_plot::{Corner, Legend, Line, Plot, PlotPoints};
+use egui_plot::{AxisHints, Corner, Legend, Line, Plot, PlotPoints};
 
 use super::record::Record;
 use crate::{character::GroundState, debug::explain::Explain};
@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
     let rise = curve(&|sample| sample.rise.into());
     base("speed", seconds)
         .height(100.0)
-        .grid_spacing(Rangef::new(8.0, 40.0))
+        .custom_y_axes(vec![labels()])
         .include_y(0.0)
         .include_y(6.0)
         .legend(Legend::default().position(Corner::LeftTop))
@@ -48,17 +48,15 @@ pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
     let states = steps(&curve(&|sample| level_of(sample.ground)));
     base("ground", seconds)
         .height(80.0)
-        // Labels fade with the spacing of their lines: these are always wanted.
-        .grid_spacing(Rangef::new(1.0, 8.0))
         .include_y(-0.3)
         .include_y(3.3)
-        .y_axis_formatter(|mark, _| {
+        .custom_y_axes(vec![labels().formatter(|mark, _| {
             STATES
                 .iter()
                 .find(|state| (level_of(**state) - mark.value).abs() < 0.01)
                 .map(Explain::text)
                 .unwrap_or_default()
-        })
+        })])
         .y_grid_spacer(|_| {
             STATES
                 .map(|state| egui_plot::GridMark {
@@ -83,7 +81,13 @@ fn base(name: &'static str, seconds: f64) -> Plot<'static> {
         .allow_zoom(false)
         .allow_scroll(false)
         .allow_boxed_zoom(false)
-        .y_axis_min_width(70.0)
+}
+
+/// A vertical axis whose labels do not fade where its lines are near each other.
+fn labels() -> AxisHints<'static> {
+    AxisHints::new_y()
+        .label_spacing(Rangef::new(8.0, 14.0))
+        .min_thickness(70.0)
 }
 
 fn level_of(state: GroundState) -> f64 {
