@@ -62,6 +62,8 @@ pub struct Measured {
     pub hash: u64,
     /// Mean level way of a walker in a tick, of what it wished for: shows that they do walk.
     pub progress: f64,
+    /// Fastest that a walker went, metres per second.
+    pub fastest: f32,
     /// Characters that fell below the lowest ground.
     pub lost: Vec<Lost>,
 }
@@ -87,7 +89,7 @@ pub fn run(options: &Options) -> Result<(), String> {
     let n = f64::from(options.characters.max(1));
     println!(
         "profile {} side={} threads={} n={} steps={} us={:.3} busy={:.3}us update={:.1}us allocations={} \
-         progress={:.2} lost={} hash={:016x}",
+         progress={:.2} fastest={:.1}m/s lost={} hash={:016x}",
         options.scene,
         options.only.name(),
         options.threads,
@@ -98,6 +100,7 @@ pub fn run(options: &Options) -> Result<(), String> {
         mean(&measured.whole),
         measured.allocations.iter().sum::<u64>(),
         measured.progress,
+        measured.fastest,
         measured.lost.len(),
         measured.hash,
     );
@@ -127,6 +130,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         allocations: Vec::with_capacity(options.steps),
         hash: 0,
         progress: 0.0,
+        fastest: 0.0,
         lost: Vec::new(),
     };
     let mut way = Way::default();
@@ -145,6 +149,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
     }
     measured.hash = hash(sim.app.world_mut());
     measured.progress = way.went / way.wished;
+    measured.fastest = way.fastest;
     measured.lost = way.lost;
     Ok(measured)
 }
@@ -171,6 +176,7 @@ struct Way {
     last: BTreeMap<StableId, Vec3>,
     went: f64,
     wished: f64,
+    fastest: f32,
     lost: Vec<Lost>,
 }
 
@@ -184,6 +190,7 @@ impl Way {
             };
             self.went += f64::from((at - last).with_y(0.0).length());
             self.wished += f64::from(walker.wish.length() / 60.0);
+            self.fastest = self.fastest.max((at - last).length() * 60.0);
             let below = LOWEST - 0.1;
             if at.y < below && last.y >= below {
                 self.lost.push(Lost {

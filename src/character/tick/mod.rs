@@ -208,7 +208,11 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             support.state = GroundState::Unsupported;
         }
         if climbed.is_some() {
-            support.state = GroundState::OnGround;
+            if support.state != GroundState::OnGround {
+                // On the rim of a step, or beside something else: the step carries, and it is level.
+                support.state = GroundState::OnGround;
+                support.normal = up;
+            }
         } else if grounded
             && walks
             && (support.state != GroundState::OnGround || support.distance > 2.0e-4)
