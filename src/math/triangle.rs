@@ -5,9 +5,9 @@
 //! holds an edge or the other end. A segment that passes through is pushed out along the face
 //! normal, to the side that needs less.
 
-use bevy::math::Vec3;
+use bevy::math::{Vec3, Vec4};
 
-use super::{Closest, direction_or, segment};
+use super::{Closest, direction_or, lanes::Lanes, segment};
 
 /// A triangle with its unit normal.
 #[derive(Clone, Copy, Debug)]
@@ -47,24 +47,33 @@ impl Triangle {
             && (self.a - self.c).cross(p - self.c).dot(n) >= 0.0
     }
 
-    /// Closest pair with the segment `p0 p1`.
+    /// The edges, one to a lane; the fourth lane repeats the third.
+    fn edges(&self) -> (Lanes, Lanes) {
+        let from = Lanes::new(self.a, self.b, self.c);
+        let to = Lanes::new(self.b, self.c, self.a);
+        (from, to.sub(&from))
+    }
+
+    /// Closest pair with the segment `p0 p1`. All three edges at once, a lane each.
     pub fn closest_to_segment(&self, p0: Vec3, p1: Vec3) -> Closest {
         let n = self.normal;
         let h0 = (p0 - self.a).dot(n);
         let h1 = (p1 - self.a).dot(n);
         // On the side where the segment is, the face looks at it.
         let face = if h0 + h1 >= 0.0 { n } else { -n };
-        let edges = [(self.a, self.b), (self.b, self.c), (self.c, self.a)];
+        let (from, along) = self.edges();
         // How far inside each edge the ends project, times the edge's length.
-        let inward = edges.map(|(q0, q1)| n.cross(q1 - q0));
-        let inside0 = [0, 1, 2].map(|i| inward[i].dot(p0 - edges[i].0));
-        let inside1 = [0, 1, 2].map(|i| inward[i].dot(p1 - edges[i].0));
-        let covers = |inside: &[f32; 3]| inside.iter().all(|i| *i >= 0.0);
+        let inward = Lanes::splat(n).cross(&along);
+        let r0 = Lanes::splat(p0).sub(&from);
+        let inside0 = inward.dot(&r0);
+        let d = Lanes::splat(p1 - p0);
+        let change = inward.dot(&d);
+        let inside1 = inside0 + change;
+        let covers = |inside: Vec4| inside.cmpge(Vec4::ZERO).all();
 
         if h0 * h1 <= 0.0 && (h0 != 0.0 || h1 != 0.0) {
             let t = h0 / (h0 - h1);
-            let crossing = p0 + (p1 - p0) * t;
-            if self.covers(crossing) {
+            if covers(inside0 + change * t) {
                 let depth = if h0 + h1 >= 0.0 {
                     -h0.min(h1)
                 } else {
@@ -73,7 +82,7 @@ impl Triangle {
                 return Closest {
                     distance: -depth,
                     normal: face,
-                    point: crossing,
+                    point: p0 + (p1 - p0) * t,
                     on_face: true,
                     surface: face,
                 };
@@ -81,9 +90,9 @@ impl Triangle {
         }
 
         let (near, height, over) = if h0.abs() <= h1.abs() {
-            (p0, h0, &inside0)
+            (p0, h0, inside0)
         } else {
-            (p1, h1, &inside1)
+            (p1, h1, inside1)
         };
         if h0 * h1 > 0.0 && covers(over) {
             return Closest {
@@ -95,31 +104,17 @@ impl Triangle {
             };
         }
 
-        let mut best = f32::MAX;
-        let mut on_segment = p0;
-        let mut on_triangle = self.a;
-        for (i, (q0, q1)) in edges.into_iter().enumerate() {
-            // The closest point is on an edge only if the segment reaches outside of that edge, and
-            // no closer than it is outside as a whole.
-            let most = inside0[i].max(inside1[i]);
-            let outside = most.min(0.0);
-            if inside0[i].min(inside1[i]) > 0.0
-                || outside * outside > best * inward[i].length_squared()
-            {
-                continue;
-            }
-            let (s, t) = segment::closest_parameters(p0, p1, q0, q1);
-            let x = p0 + (p1 - p0) * s;
-            let y = q0 + (q1 - q0) * t;
-            let d = x.distance_squared(y);
-            if d < best {
-                best = d;
-                on_segment = x;
-                on_triangle = y;
+        let (s, t) = segment::closest_parameters_of_four(p1 - p0, &along, &r0);
+        let gap = r0.add(&d.scaled(s)).sub(&along.scaled(t));
+        let squares = gap.dot(&gap).to_array();
+        let mut i = 0;
+        for other in 1..3 {
+            if squares[other] < squares[i] {
+                i = other;
             }
         }
-        for (p, h, inside) in [(p0, h0, &inside0), (p1, h1, &inside1)] {
-            if h * h < best && covers(inside) {
+        for (p, h, inside) in [(p0, h0, inside0), (p1, h1, inside1)] {
+            if h * h < squares[i] && covers(inside) {
                 return Closest {
                     distance: h.abs(),
                     normal: if h >= 0.0 { n } else { -n },
@@ -129,9 +124,16 @@ impl Triangle {
                 };
             }
         }
-        let normal = direction_or(on_segment - on_triangle, face);
+        let (q0, q1) = match i {
+            0 => (self.a, self.b),
+            1 => (self.b, self.c),
+            _ => (self.c, self.a),
+        };
+        let on_triangle = q0 + (q1 - q0) * t.to_array()[i];
+        let offset = p0 + (p1 - p0) * s.to_array()[i] - on_triangle;
+        let normal = direction_or(offset, face);
         Closest {
-            distance: (on_segment - on_triangle).length(),
+            distance: offset.length(),
             normal,
             point: on_triangle,
             on_face: normal.dot(face) > 0.999_99,
@@ -148,13 +150,15 @@ impl Triangle {
         if h0.min(h1) > distance || h0.max(h1) < -distance {
             return true;
         }
-        [(self.a, self.b), (self.b, self.c), (self.c, self.a)]
-            .into_iter()
-            .any(|(q0, q1)| {
-                let inward = n.cross(q1 - q0);
-                let most = inward.dot(p0 - q0).max(inward.dot(p1 - q0));
-                most < 0.0 && most * most > distance * distance * inward.length_squared()
-            })
+        let (from, along) = self.edges();
+        let inward = Lanes::splat(n).cross(&along);
+        let most = inward
+            .dot(&Lanes::splat(p0).sub(&from))
+            .max(inward.dot(&Lanes::splat(p1).sub(&from)));
+        let outside = most.min(Vec4::ZERO);
+        (outside * outside)
+            .cmpgt(inward.dot(&inward) * (distance * distance))
+            .any()
     }
 
     /// Distance along `dir` at which a ray meets either side, at most `max`.

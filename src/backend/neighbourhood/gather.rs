@@ -200,7 +200,6 @@ impl Sink<'_, '_> {
                 part: self.part,
                 clearance,
                 normal: found.normal,
-                on_face: found.on_face,
             });
         }
     }

@@ -144,6 +144,7 @@ pub(crate) struct Neighbourhood {
     /// its obstacle's thickness, metres.
     pub slack: f32,
     order: Vec<(f32, u32)>,
+    earlier: Vec<Obstacle>,
 }
 
 impl Neighbourhood {
@@ -155,6 +156,38 @@ impl Neighbourhood {
         self.moving = false;
         self.volumes.clear();
         self.slack = 0.0;
+    }
+
+    /// An obstacle was set in motion: where it can get to was not known when pieces were collected.
+    pub fn note_pushed(&mut self) {
+        self.moving = true;
+        self.slack = f32::INFINITY;
+    }
+
+    /// Sets the obstacles aside before the place is looked at again, in a wider circle.
+    pub fn set_aside(&mut self) {
+        core::mem::swap(&mut self.obstacles, &mut self.earlier);
+    }
+
+    /// Carries over what was found out about the obstacles that were set aside: how they were pushed.
+    pub fn carry_over(&mut self) {
+        for old in &self.earlier {
+            if let Some(new) = self.obstacles.iter_mut().find(|o| o.entity == old.entity) {
+                new.motion = old.motion;
+                new.dynamics = old.dynamics;
+            }
+        }
+    }
+
+    /// The present index of an obstacle that was set aside.
+    pub fn index_now(&mut self, index: u32) -> u32 {
+        let old = &self.earlier[index as usize];
+        let known = self.obstacles.iter().position(|o| o.entity == old.entity);
+        let now = known.unwrap_or_else(|| {
+            self.obstacles.push(old.clone());
+            self.obstacles.len() - 1
+        });
+        now as u32
     }
 
     /// Puts the pieces in the order of their clearance. The order of the search tree depends on what

@@ -18,8 +18,6 @@ pub(crate) struct Piece {
     pub clearance: f32,
     /// From the piece to the mover at the start of the tick, unit length.
     pub normal: Vec3,
-    /// Whether a face is what is closest at the start of the tick.
-    pub on_face: bool,
 }
 
 /// The shapes with closed forms, and the rest.

@@ -94,9 +94,7 @@ impl Solver<'_> {
                 obstacle.motion.turn = turn;
             }
         }
-        self.near.moving = true;
-        // Where it can get to now was not known when the pieces were gathered.
-        self.near.slack = f32::INFINITY;
+        self.near.note_pushed();
         self.impulses.push(Impulse {
             obstacle: touch.obstacle,
             body: entity,
