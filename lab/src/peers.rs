@@ -185,6 +185,11 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     let different = hashes.len() as f64;
     checks.push(Check::exact("different states of one world", different, Must::Equal, 1.0));
 
+    let lost = sides[0].runs.iter().map(|run| run.lost.len()).max().unwrap_or(0);
+    println!("left the level {scene} n={lost}");
+    // Somebody far up in the air is cheap: figures with such are none.
+    checks.push(Check::timing("characters that left the level", lost as f64, Must::Equal, 0.0));
+
     // Large crowds take long; the same short stretch of time is measured for every size.
     let sizes = if options.quick { &SIZES[..2] } else { &SIZES[..] };
     let mut crowds: Vec<World> = sizes

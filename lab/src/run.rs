@@ -64,11 +64,11 @@ pub struct Measured {
     pub progress: f64,
     /// Fastest that a walker went, metres per second.
     pub fastest: f32,
-    /// Characters that fell below the lowest ground.
+    /// Characters that left the level: fell below the ground, or were thrown high up.
     pub lost: Vec<Lost>,
 }
 
-/// Where a character was before it fell out of the world.
+/// Where a character was before and after it left the level.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Lost {
     pub id: u32,
@@ -170,6 +170,9 @@ fn run_alone(app: &mut App) {
     }
 }
 
+/// Nobody gets above this without being thrown, metres.
+const HIGHEST: f32 = 6.0;
+
 /// How far walkers got.
 #[derive(Default)]
 struct Way {
@@ -191,8 +194,8 @@ impl Way {
             self.went += f64::from((at - last).with_y(0.0).length());
             self.wished += f64::from(walker.wish.length() / 60.0);
             self.fastest = self.fastest.max((at - last).length() * 60.0);
-            let below = LOWEST - 0.1;
-            if at.y < below && last.y >= below {
+            let inside = |p: Vec3| (LOWEST - 0.1..HIGHEST).contains(&p.y);
+            if !inside(at) && inside(last) {
                 self.lost.push(Lost {
                     id: id.0,
                     tick,

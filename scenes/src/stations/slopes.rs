@@ -189,7 +189,9 @@ fn funnel(funnel: Funnel) -> Station {
     .ask(
         format!("jump {jump} m high from there within 2 cm"),
         move |trace| {
-            let (low, high) = range(trace.step(2), |s| s.foot.y);
+            // The samples of a step begin after its first tick.
+            let (low, _) = range(trace.step(1), |s| s.foot.y);
+            let (_, high) = range(trace.step(2), |s| s.foot.y);
             Verdict::at_most(
                 f64::from((high - low - jump).abs()),
                 0.02,

@@ -34,6 +34,7 @@ impl Solver<'_> {
         self.touch(p, 1.0, SUPPORT);
         let mut best: Option<(f32, Support)> = None;
         let mut mean = Vec3::ZERO;
+        let mut on_flat = false;
         let mut steep: Option<(f32, Support)> = None;
         let mut steep_mean = Vec3::ZERO;
         for touch in self.touches.iter() {
@@ -41,11 +42,8 @@ impl Solver<'_> {
             if rise < 0.02 {
                 continue;
             }
-            let surface = if self.walkable(touch.surface) && touch.surface.dot(self.up) > rise {
-                touch.surface
-            } else {
-                touch.normal
-            };
+            let flat = self.walkable(touch.surface) && touch.surface.dot(self.up) > rise - 1.0e-4;
+            let surface = if flat { touch.surface } else { touch.normal };
             let holds = touch.bend == Bend::Ground || (self.walkable(surface) && rise >= perch);
             let found = Support {
                 state: GroundState::OnGround,
@@ -55,7 +53,14 @@ impl Solver<'_> {
                 distance: touch.distance,
             };
             if holds {
-                mean += surface;
+                // A rim that is rolled over does not tilt the tread behind it.
+                if flat && !on_flat {
+                    on_flat = true;
+                    mean = Vec3::ZERO;
+                }
+                if flat == on_flat {
+                    mean += surface;
+                }
                 if best.is_none_or(|(most, _)| rise > most) {
                     best = Some((rise, found));
                 }
@@ -105,10 +110,8 @@ impl Solver<'_> {
 
     /// Looks for ground below `p` within the snap distance; where the foot then is, and on what.
     pub fn snap(&mut self, p: Vec3, walking: bool) -> Option<(Vec3, Support)> {
-        let reach = self.config.ground_snap;
-        if !(reach > 0.0) {
-            return None;
-        }
+        // Whoever lands within reach of the ground is put onto it even if it does not snap.
+        let reach = if self.grounded { self.config.ground_snap } else { 0.0 }.max(SUPPORT);
         self.touch(p, 1.0, TOUCH);
         let down = -self.up * reach;
         let s = self.sweep(p, down, 1.0, 1.0);
@@ -122,7 +125,7 @@ impl Solver<'_> {
         }
         // The rim of the edge just left, which a round foot still grazes, is passed on the way.
         let (velocity, blockers, pinned) = (self.velocity, self.blockers.len(), self.pinned);
-        let q = self.slide(q, down * (1.0 - s), 1.0, false);
+        let q = self.slide(q, down * (1.0 - s), 1.0, true);
         self.velocity = velocity;
         self.blockers.truncate(blockers);
         self.pinned = pinned;

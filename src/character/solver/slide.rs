@@ -14,6 +14,8 @@ use crate::{
 
 /// Most sweeps in one tick. What is left after them is not moved.
 const SWEEPS: usize = 10;
+/// Closing by less than this per tick is going along, metres.
+const ASIDE: f32 = 1.0e-6;
 /// Most advances of one piece in one sweep.
 const ADVANCES: usize = 24;
 
@@ -241,7 +243,7 @@ impl Solver<'_> {
         if length == 0.0 && !self.near.moving {
             return most;
         }
-        let aside = 1.0e-5 * length + 1.0e-9;
+        let aside = 1.0e-5 * length + ASIDE;
         let mut best = most;
         let pose = self.pose.at(p);
         let away = p.distance(self.pose.position) + 1.0e-5;

@@ -202,9 +202,9 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
                 support.state = GroundState::OnGround;
                 support.normal = up;
             }
-        } else if grounded
-            && walks
-            && (support.state != GroundState::OnGround || support.distance > 2.0e-4)
+        } else if walks
+            && support.distance > 2.0e-4
+            && (grounded || support.state == GroundState::OnGround)
             && let Some((q, found)) = solver.snap(p, walking)
         {
             snapped = (p - q).dot(up);
