@@ -148,7 +148,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         way.follow(sim.app.world_mut(), tick);
     }
     measured.hash = hash(sim.app.world_mut());
-    measured.progress = way.went / way.wished;
+    measured.progress = way.went / way.wished.max(f64::MIN_POSITIVE);
     measured.fastest = way.fastest;
     measured.lost = way.lost;
     Ok(measured)

@@ -4,7 +4,7 @@
 //! Characters are solved in parallel against the same unchanging world and each other's published
 //! wishes, and every effect is collected first, so neither threads nor order matter.
 
-use bevy::{prelude::*, utils::Parallel};
+use bevy::{ecs::batching::BatchingStrategy, prelude::*, utils::Parallel};
 use bevy_rapier3d::{
     plugin::context::RapierContextEntityLink,
     prelude::{Collider, CollisionGroups, RapierColliderHandle, RapierRigidBodyHandle},
@@ -98,7 +98,9 @@ pub(super) fn solve_characters(
     if !(dt > 0.0) {
         return;
     }
-    characters.par_iter_mut().for_each(
+    // Costs differ from one character to the next: small batches even them out.
+    let batches = BatchingStrategy::new().batches_per_thread(4);
+    characters.par_iter_mut().batching_strategy(batches).for_each(
         |(
             (entity, config, motor, intent),
             (link, handle),
@@ -154,6 +156,7 @@ pub(super) fn apply_effects(
     mut impulses: Local<Vec<(Entity, RapierContextEntityLink, BodyImpulse)>>,
 ) {
     impulses.clear();
+    impulses.reserve(64);
     for (entity, link, handle, mut report) in &mut characters {
         if !report.solved {
             continue;
