@@ -101,7 +101,11 @@ impl World {
 
     /// The most allocations of a run, per tick.
     fn allocations(&self) -> f64 {
-        let most = self.runs.iter().map(|run| run.allocations.iter().sum::<u64>()).max();
+        let most = self
+            .runs
+            .iter()
+            .map(|run| run.allocations.iter().sum::<u64>())
+            .max();
         most.map_or(f64::NAN, |most| most as f64 / self.options.steps as f64)
     }
 }
@@ -111,7 +115,11 @@ fn measure_in_turns(worlds: &mut [World], repeats: usize) -> Result<(), String> 
     for turn in 0..repeats {
         for i in 0..worlds.len() {
             // Every other turn backwards, so that none always comes first.
-            let i = if turn % 2 == 0 { i } else { worlds.len() - 1 - i };
+            let i = if turn % 2 == 0 {
+                i
+            } else {
+                worlds.len() - 1 - i
+            };
             let options = &worlds[i].options;
             eprintln!(
                 "run {}/{repeats}: {} {} threads={} n={}",
@@ -145,7 +153,10 @@ struct Line {
 pub fn run(options: &Options) -> Result<ExitCode, String> {
     let scene = scene::find(&options.scene)?.name;
     let steps = |full: usize| if options.quick { full / 20 } else { full };
-    let repeats = options.repeats.unwrap_or(if options.quick { 1 } else { 5 }).max(1);
+    let repeats = options
+        .repeats
+        .unwrap_or(if options.quick { 1 } else { 5 })
+        .max(1);
     let mut checks = Vec::new();
 
     let mut sides: Vec<World> = THREADS
@@ -157,41 +168,80 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     for (pair, threads) in sides.chunks_exact(2).zip(THREADS) {
         let (ours, rapier) = (pair[0].work(), pair[1].work());
         let ratio = ours / rapier;
-        println!("peers {scene} threads={threads} ours={ours:.1}us rapier={rapier:.1}us ratio={ratio:.3}");
+        println!(
+            "peers {scene} threads={threads} ours={ours:.1}us rapier={rapier:.1}us ratio={ratio:.3}"
+        );
         println!(
             "whole update {scene} threads={threads} ours={:.0}us rapier={:.0}us",
             pair[0].whole(),
             pair[1].whole(),
         );
         if threads == 1 {
-            checks.push(Check::timing("ratio on one thread", ratio, Must::BeAtMost, RATIO));
+            checks.push(Check::timing(
+                "ratio on one thread",
+                ratio,
+                Must::BeAtMost,
+                RATIO,
+            ));
         }
     }
     let speed_up = sides[0].wall() / sides[2].wall();
     println!("peers {scene} threads=2 speedup={speed_up:.2}x");
-    checks.push(Check::timing("speed-up by two threads", speed_up, Must::BeAtLeast, SPEED_UP));
+    checks.push(Check::timing(
+        "speed-up by two threads",
+        speed_up,
+        Must::BeAtLeast,
+        SPEED_UP,
+    ));
     let allocations = sides[0].allocations();
     println!("allocations per tick={}", short(allocations));
     // A quick run is over before every buffer has grown to its size.
-    checks.push(Check::timing("allocations per tick", allocations, Must::Equal, 0.0));
+    checks.push(Check::timing(
+        "allocations per tick",
+        allocations,
+        Must::Equal,
+        0.0,
+    ));
     let hashes: BTreeSet<u64> = [&sides[0], &sides[2]]
         .iter()
         .flat_map(|world| world.runs.iter().map(|run| run.hash))
         .collect();
     for world in [&sides[0], &sides[2]] {
         let hash = world.runs.first().map_or(0, |run| run.hash);
-        println!("state {scene} threads={} hash={hash:016x}", world.options.threads);
+        println!(
+            "state {scene} threads={} hash={hash:016x}",
+            world.options.threads
+        );
     }
     let different = hashes.len() as f64;
-    checks.push(Check::exact("different states of one world", different, Must::Equal, 1.0));
+    checks.push(Check::exact(
+        "different states of one world",
+        different,
+        Must::Equal,
+        1.0,
+    ));
 
-    let lost = sides[0].runs.iter().map(|run| run.lost.len()).max().unwrap_or(0);
+    let lost = sides[0]
+        .runs
+        .iter()
+        .map(|run| run.lost.len())
+        .max()
+        .unwrap_or(0);
     println!("left the level {scene} n={lost}");
     // Somebody far up in the air is cheap: figures with such are none.
-    checks.push(Check::timing("characters that left the level", lost as f64, Must::Equal, 0.0));
+    checks.push(Check::timing(
+        "characters that left the level",
+        lost as f64,
+        Must::Equal,
+        0.0,
+    ));
 
     // Large crowds take long; the same short stretch of time is measured for every size.
-    let sizes = if options.quick { &SIZES[..2] } else { &SIZES[..] };
+    let sizes = if options.quick {
+        &SIZES[..2]
+    } else {
+        &SIZES[..]
+    };
     let mut crowds: Vec<World> = sizes
         .iter()
         .map(|size| World::new(scene, Side::Ours, 1, *size, steps(100)))
@@ -210,17 +260,26 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     let mut idle = [World::new("idle", Side::Ours, 1, 1000, steps(500))];
     measure_in_turns(&mut idle, repeats)?;
     println!("idle {scene} us={:.3}", idle[0].work());
-    checks.push(Check::timing("idle character, microseconds", idle[0].work(), Must::BeBelow, IDLE));
+    checks.push(Check::timing(
+        "idle character, microseconds",
+        idle[0].work(),
+        Must::BeBelow,
+        IDLE,
+    ));
 
     if options.quick {
         println!("quick run: its times mean nothing");
     }
-    for check in checks.iter().filter(|check| !(options.quick && check.timing)) {
+    for check in checks
+        .iter()
+        .filter(|check| !(options.quick && check.timing))
+    {
         println!("{check}");
     }
     let worlds: Vec<&World> = sides.iter().chain(&crowds).chain(&idle).collect();
     if let Some(folder) = &options.out {
-        write_out(folder, &worlds, &checks).map_err(|error| format!("{}: {error}", folder.display()))?;
+        write_out(folder, &worlds, &checks)
+            .map_err(|error| format!("{}: {error}", folder.display()))?;
     }
     if let Some(file) = &options.readme {
         readme::replace_table(file, &table(&sides, &crowds, &idle[0], repeats))?;
@@ -228,14 +287,20 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     let failed = checks
         .iter()
         .any(|check| !check.passes() && !(options.quick && check.timing));
-    Ok(if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+    Ok(if failed {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    })
 }
 
 /// Results as lines of JSON, and every tick of every run as CSV.
 fn write_out(folder: &Path, worlds: &[&World], checks: &[Check]) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
     let mut lines = String::new();
-    let mut ticks = String::from("scene,side,threads,characters,run,tick,wall_ns,busy_ns,update_ns,allocations\n");
+    let mut ticks = String::from(
+        "scene,side,threads,characters,run,tick,wall_ns,busy_ns,update_ns,allocations\n",
+    );
     for world in worlds {
         let o = &world.options;
         let line = Line {
@@ -284,7 +349,10 @@ fn table(sides: &[World], crowds: &[World], idle: &World, repeats: usize) -> Str
             n => format!("{n} threads"),
         };
         let (ours, rapier) = (pair[0].work(), pair[1].work());
-        table += &format!("| {threads} | {ours:.1} µs | {rapier:.1} µs | {:.3} |\n", ours / rapier);
+        table += &format!(
+            "| {threads} | {ours:.1} µs | {rapier:.1} µs | {:.3} |\n",
+            ours / rapier
+        );
     }
     for crowd in &crowds[1..] {
         table += &format!(
@@ -311,7 +379,10 @@ fn table(sides: &[World], crowds: &[World], idle: &World, repeats: usize) -> Str
 /// A number without needless digits.
 fn short(value: f64) -> String {
     let digits = format!("{value:.4}");
-    digits.trim_end_matches('0').trim_end_matches('.').to_owned()
+    digits
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .to_owned()
 }
 
 /// What the figures were measured on.

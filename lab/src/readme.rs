@@ -9,14 +9,20 @@ const END: &str = "<!-- bench:end -->";
 pub fn replace_table(file: &Path, table: &str) -> Result<(), String> {
     let shown = file.display();
     let page = fs::read_to_string(file).map_err(|error| format!("{shown}: {error}"))?;
-    let page = splice(&page, table).ok_or_else(|| format!("{shown} has no `{BEGIN}` before `{END}`"))?;
+    let page =
+        splice(&page, table).ok_or_else(|| format!("{shown} has no `{BEGIN}` before `{END}`"))?;
     fs::write(file, page).map_err(|error| format!("{shown}: {error}"))
 }
 
 fn splice(page: &str, table: &str) -> Option<String> {
     let begin = page.find(BEGIN)? + BEGIN.len();
     let end = begin + page[begin..].find(END)?;
-    Some(format!("{}\n{}\n{}", &page[..begin], table.trim_end(), &page[end..]))
+    Some(format!(
+        "{}\n{}\n{}",
+        &page[..begin],
+        table.trim_end(),
+        &page[end..]
+    ))
 }
 
 #[cfg(test)]

@@ -105,7 +105,10 @@ pub fn run(options: &Options) -> Result<(), String> {
         measured.hash,
     );
     for lost in &measured.lost {
-        println!("lost {} in tick {} from {:?} to {:?}", lost.id, lost.tick, lost.last, lost.at);
+        println!(
+            "lost {} in tick {} from {:?} to {:?}",
+            lost.id, lost.tick, lost.last, lost.at
+        );
     }
     Ok(())
 }
@@ -139,7 +142,11 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
     for tick in 0..options.steps {
         let start = (Instant::now(), on_processor());
         sim.ticks(1);
-        let whole = if alone { on_processor() - start.1 } else { start.0.elapsed() };
+        let whole = if alone {
+            on_processor() - start.1
+        } else {
+            start.0.elapsed()
+        };
         let spent = sim.app.world_mut().resource_mut::<Probe>().take();
         measured.whole.push(whole.as_nanos() as u64);
         measured.wall.push(spent.wall.as_nanos() as u64);

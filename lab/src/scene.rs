@@ -37,10 +37,16 @@ pub const SCENES: &[Scene] = &[
 
 /// The scene of this name.
 pub fn find(name: &str) -> Result<&'static Scene, String> {
-    SCENES.iter().find(|scene| scene.name == name).ok_or_else(|| {
-        let names: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();
-        format!("there is no scene `{name}`; there are: {}", names.join(", "))
-    })
+    SCENES
+        .iter()
+        .find(|scene| scene.name == name)
+        .ok_or_else(|| {
+            let names: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();
+            format!(
+                "there is no scene `{name}`; there are: {}",
+                names.join(", ")
+            )
+        })
 }
 
 #[derive(Resource)]

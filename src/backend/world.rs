@@ -8,7 +8,7 @@ use bevy_rapier3d::{
     },
     prelude::{CollisionGroups, RapierColliderHandle, RapierConfiguration, RapierRigidBodyHandle},
     rapier::{
-        dynamics::{RigidBody, RigidBodyType},
+        dynamics::{RigidBody, RigidBodyHandle, RigidBodyType},
         geometry::{Aabb, Collider, InteractionGroups},
         math::{AngularInertia, Pose},
         parry::{
@@ -315,6 +315,7 @@ pub(crate) struct PhysicsWorldsMut<'w, 's> {
             &'static mut RapierRigidBodySet,
         ),
     >,
+    forced: ResMut<'w, ForcedBodies>,
 }
 
 impl PhysicsWorldsMut<'_, '_> {
@@ -420,13 +421,17 @@ impl PhysicsWorldsMut<'_, '_> {
         }
     }
 
-    /// Gives a dynamic body an impulse at a point of the world. A sleeping body is left asleep
-    /// unless `wake`.
-    pub fn apply_impulse(
+    /// Gives a dynamic body an impulse at once and a force for the whole tick, at a point of the
+    /// world. A sleeping body is left asleep unless `wake`.
+    ///
+    /// The force goes through Rapier's own substeps, so damping and friction act against it as they
+    /// would against any force; [`Self::end_forces`] takes it away again.
+    pub fn push_body(
         &mut self,
         link: &RapierContextEntityLink,
         body: Entity,
         impulse: Vec3,
+        force: Vec3,
         point: Vec3,
         wake: bool,
     ) {
@@ -434,12 +439,58 @@ impl PhysicsWorldsMut<'_, '_> {
             let Some(handle) = bodies.entity2body().get(&body).copied() else {
                 return;
             };
-            if let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle)
-                && body.is_dynamic()
-                && (wake || !body.is_sleeping())
-            {
+            let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle) else {
+                return;
+            };
+            if !body.is_dynamic() || (body.is_sleeping() && !wake) {
+                return;
+            }
+            if impulse != Vec3::ZERO {
                 body.apply_impulse_at_point(impulse, point, wake);
+            }
+            if force != Vec3::ZERO {
+                if !self
+                    .forced
+                    .0
+                    .iter()
+                    .any(|f| f.link == link.0 && f.body == handle)
+                {
+                    self.forced.0.push(Forced {
+                        link: link.0,
+                        body: handle,
+                        force: body.user_force(),
+                        torque: body.user_torque(),
+                    });
+                }
+                body.add_force_at_point(force, point, wake);
+            }
+        }
+    }
+
+    /// Gives the bodies back the forces that they had before the tick.
+    pub fn end_forces(&mut self) {
+        for forced in self.forced.0.drain(..) {
+            if let Ok((_, _, mut bodies)) = self.contexts.get_mut(forced.link)
+                && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(forced.body)
+            {
+                body.reset_forces(false);
+                body.reset_torques(false);
+                body.add_force(forced.force, false);
+                body.add_torque(forced.torque, false);
             }
         }
     }
 }
+
+/// The forces of a body before a tick's pushes.
+#[derive(Clone, Copy)]
+struct Forced {
+    link: Entity,
+    body: RigidBodyHandle,
+    force: Vec3,
+    torque: Vec3,
+}
+
+/// The bodies that are pushed in this tick; empty between ticks.
+#[derive(Resource, Default)]
+pub(crate) struct ForcedBodies(Vec<Forced>);

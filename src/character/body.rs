@@ -25,6 +25,8 @@ pub(crate) struct CharacterBody {
     /// Height of the collider, metres.
     collider_height: f32,
     owns_collider: bool,
+    /// Which filter components were there in the last tick.
+    pub filters: u8,
     /// Whether a bad transform or intent was reported, so that it is reported once.
     pub warned: bool,
 }

@@ -83,9 +83,9 @@ pub(super) fn solve_characters(
         (Entity, &Character, &CharacterMotor, &CharacterIntent),
         (&RapierContextEntityLink, &RapierRigidBodyHandle),
         (
-            Option<&CollisionGroups>,
-            Option<&CharacterFilter>,
-            Option<&CharacterIgnores>,
+            Option<Ref<CollisionGroups>>,
+            Option<Ref<CharacterFilter>>,
+            Option<Ref<CharacterIgnores>>,
         ),
         &mut CharacterBody,
         &mut CharacterState,
@@ -100,48 +100,63 @@ pub(super) fn solve_characters(
     }
     // Costs differ from one character to the next: small batches even them out.
     let batches = BatchingStrategy::new().batches_per_thread(4);
-    characters.par_iter_mut().batching_strategy(batches).for_each(
-        |(
-            (entity, config, motor, intent),
-            (link, handle),
-            (groups, filter, ignores),
-            mut body,
-            mut state,
-            mut contacts,
-            mut report,
-        )| {
-            let Some(view) = worlds.of(link) else { return };
-            if !view.active {
-                return;
-            }
-            let surroundings = Surroundings {
-                entity,
-                view,
-                dt,
-                groups: groups.copied().unwrap_or_default(),
-                filter,
-                ignores,
-                activity: &activity,
-                surfaces: &surfaces,
-                others: &others,
-                walls: &walls,
-            };
-            let Some(tick) = Tick::begin(
-                &surroundings,
-                config,
-                motor,
-                intent,
-                handle,
-                &mut body,
-                &mut state,
-                &mut contacts,
-                &mut report,
-            ) else {
-                return;
-            };
-            scratch.scope(|scratch| tick.run(scratch));
-        },
-    );
+    characters
+        .par_iter_mut()
+        .batching_strategy(batches)
+        .for_each(
+            |(
+                (entity, config, motor, intent),
+                (link, handle),
+                (groups, filter, ignores),
+                mut body,
+                mut state,
+                mut contacts,
+                mut report,
+            )| {
+                let Some(view) = worlds.of(link) else { return };
+                if !view.active {
+                    return;
+                }
+                // A component that was taken away is a change as well.
+                let filters = u8::from(groups.is_some())
+                    | u8::from(filter.is_some()) << 1
+                    | u8::from(ignores.is_some()) << 2;
+                let filters_changed = body.filters != filters
+                    || groups.as_ref().is_some_and(Ref::is_changed)
+                    || filter.as_ref().is_some_and(Ref::is_changed)
+                    || ignores.as_ref().is_some_and(Ref::is_changed);
+                if body.filters != filters {
+                    body.bypass_change_detection().filters = filters;
+                }
+                let surroundings = Surroundings {
+                    filters_changed,
+                    entity,
+                    view,
+                    dt,
+                    groups: groups.as_deref().copied().unwrap_or_default(),
+                    filter: filter.as_deref(),
+                    ignores: ignores.as_deref(),
+                    activity: &activity,
+                    surfaces: &surfaces,
+                    others: &others,
+                    walls: &walls,
+                };
+                let Some(tick) = Tick::begin(
+                    &surroundings,
+                    config,
+                    motor,
+                    intent,
+                    handle,
+                    &mut body,
+                    &mut state,
+                    &mut contacts,
+                    &mut report,
+                ) else {
+                    return;
+                };
+                scratch.scope(|scratch| tick.run(scratch));
+            },
+        );
 }
 
 /// Writes what the ticks decided: impulses by order of character, then the characters' poses.
@@ -176,6 +191,11 @@ pub(super) fn apply_effects(
     // Stable: one character's impulses keep the order in which it met the bodies.
     impulses.sort_by_key(|(entity, ..)| *entity);
     for (_, link, i) in impulses.iter() {
-        worlds.apply_impulse(link, i.body, i.impulse, i.point, i.wake);
+        worlds.push_body(link, i.body, i.impulse, i.force, i.point, i.wake);
     }
+}
+
+/// Takes the tick's forces off the bodies again.
+pub(super) fn end_forces(mut worlds: PhysicsWorldsMut) {
+    worlds.end_forces();
 }

@@ -21,7 +21,10 @@ use bevy::prelude::*;
 
 #[cfg(doc)]
 use crate::schedule::EmbodyCorePlugin;
-use crate::{backend::activity::Activity, schedule::EmbodySystems};
+use crate::{
+    backend::{activity::Activity, world::ForcedBodies},
+    schedule::EmbodySystems,
+};
 
 pub use config::{Character, CharacterShape, LeaveVelocity, SlopeSpeed, StepConfig};
 pub use events::{Crushed, Hit, Landed, LeftGround, StanceChanged, Stepped};
@@ -56,6 +59,7 @@ impl Plugin for CharacterPlugin {
             .register_type::<Ladder>()
             .register_type::<NotPushable>()
             .init_resource::<Activity>()
+            .init_resource::<ForcedBodies>()
             .add_systems(
                 FixedPostUpdate,
                 (
@@ -74,7 +78,9 @@ impl Plugin for CharacterPlugin {
                     )
                         .chain()
                         .in_set(EmbodySystems::Drive),
-                    react::trigger_events.in_set(EmbodySystems::React),
+                    (drive::end_forces, react::trigger_events)
+                        .chain()
+                        .in_set(EmbodySystems::React),
                 )
                     .run_if(any_with_component::<Character>),
             );

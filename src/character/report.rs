@@ -20,6 +20,8 @@ pub(crate) struct CharacterReport {
     /// Ground when the tick began.
     pub left: Option<Entity>,
     pub jumped: bool,
+    /// Whether the game put it somewhere before the tick.
+    pub placed: bool,
     /// Where to be at the end of the tick.
     pub target: Option<WorldPose>,
     /// Where it was put by the game before the tick.
@@ -36,8 +38,10 @@ pub(crate) struct CharacterReport {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyImpulse {
     pub body: Entity,
-    /// Newton-seconds, world axes.
+    /// At once, newton-seconds, world axes.
     pub impulse: Vec3,
+    /// Evenly over the tick, newtons, world axes.
+    pub force: Vec3,
     /// World, metres.
     pub point: Vec3,
     /// Whether a sleeping body wakes up by it.

@@ -102,8 +102,7 @@ mod tests {
             }
             let from = Lanes::new(q[0], q[1], q[2]);
             let along = Lanes::new(q[1], q[2], q[0]).sub(&from);
-            let (s, t) =
-                closest_parameters_of_four(p1 - p0, &along, &Lanes::splat(p0).sub(&from));
+            let (s, t) = closest_parameters_of_four(p1 - p0, &along, &Lanes::splat(p0).sub(&from));
             for i in 0..3 {
                 let (q0, q1) = (q[i], q[(i + 1) % 3]);
                 let gap = |s: f32, t: f32| p0.lerp(p1, s).distance(q0.lerp(q1, t));

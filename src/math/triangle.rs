@@ -250,7 +250,9 @@ mod tests {
         for _ in 0..2000 {
             let mut v = || Vec3::new(next(), next(), next());
             let (a, b, c, p0, p1) = (v(), v(), v(), v(), v());
-            let Some(triangle) = Triangle::new(a, b, c) else { continue };
+            let Some(triangle) = Triangle::new(a, b, c) else {
+                continue;
+            };
             let distance = next().abs();
             if triangle.is_beyond(p0, p1, distance) {
                 beyond += 1;

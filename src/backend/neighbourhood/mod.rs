@@ -195,8 +195,12 @@ impl Neighbourhood {
     pub fn sort(&mut self) {
         let pieces = &mut self.pieces;
         self.order.clear();
-        self.order
-            .extend(pieces.iter().zip(0..).map(|(piece, i)| (piece.clearance, i)));
+        self.order.extend(
+            pieces
+                .iter()
+                .zip(0..)
+                .map(|(piece, i)| (piece.clearance, i)),
+        );
         self.order.sort_unstable_by(|(a, i), (b, j)| {
             a.total_cmp(b).then_with(|| {
                 let (a, b) = (&pieces[*i as usize], &pieces[*j as usize]);
@@ -227,8 +231,7 @@ impl Neighbourhood {
     /// `distance` from where it started.
     pub fn within(&self, range: f32, distance: f32) -> usize {
         let most = range + distance + self.slack;
-        self.pieces
-            .partition_point(|piece| piece.clearance <= most)
+        self.pieces.partition_point(|piece| piece.clearance <= most)
     }
 
     pub fn obstacle(&self, piece: &Piece) -> &Obstacle {

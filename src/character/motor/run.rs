@@ -263,7 +263,7 @@ impl Run<'_> {
             .volume
             .and_then(|entity| volumes.get(entity).ok());
         match self.state.mode {
-            MovementMode::Walk => self.on_foot(movement),
+            MovementMode::Walk => self.on_foot(),
             MovementMode::Fly => {
                 if self.state.on_ground() {
                     leave_ground(self.config, self.state);
@@ -288,7 +288,7 @@ impl Run<'_> {
             }
             MovementMode::Climb => {
                 let Some((_, _, pose)) = volume else {
-                    return self.on_foot(movement);
+                    return self.on_foot();
                 };
                 let out = pose.rotation() * Vec3::Z;
                 if self.state.jump_buffer > 0.0 {
@@ -310,8 +310,9 @@ impl Run<'_> {
         }
     }
 
-    fn on_foot(&mut self, movement: Vec3) -> Course {
+    fn on_foot(&mut self) -> Course {
         let up = self.state.up;
+        let movement = self.intent.movement;
         let speed = if self.state.stance != Stance::Stand {
             self.motor.crouch_speed
         } else if self.intent.sprint {
@@ -319,7 +320,7 @@ impl Run<'_> {
         } else {
             self.motor.walk_speed
         };
-        let wish = (movement - up * movement.dot(up)) * speed;
+        let wish = limited(movement - up * movement.dot(up)) * speed;
         let may_jump = self.state.on_ground() || self.state.coyote_time > 0.0;
         if self.state.jump_buffer > 0.0 && may_jump {
             self.state.jump_buffer = 0.0;

@@ -111,7 +111,12 @@ impl Solver<'_> {
     /// Looks for ground below `p` within the snap distance; where the foot then is, and on what.
     pub fn snap(&mut self, p: Vec3, walking: bool) -> Option<(Vec3, Support)> {
         // Whoever lands within reach of the ground is put onto it even if it does not snap.
-        let reach = if self.grounded { self.config.ground_snap } else { 0.0 }.max(SUPPORT);
+        let reach = if self.grounded {
+            self.config.ground_snap
+        } else {
+            0.0
+        }
+        .max(SUPPORT);
         self.touch(p, 1.0, TOUCH);
         let down = -self.up * reach;
         let s = self.sweep(p, down, 1.0, 1.0);

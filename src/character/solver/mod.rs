@@ -46,7 +46,7 @@ const LIP: f32 = 1.0e-3;
 /// Ground within this distance carries, metres.
 const SUPPORT: f32 = 2.0e-3;
 /// Slack on the slope limit, so that a ramp at the limit is not a matter of rounding, radians.
-const SLOPE_SLACK: f32 = 2.0e-3;
+const SLOPE_SLACK: f32 = 5.0e-4;
 
 /// Buffers that a solve needs; kept between ticks, one per thread.
 #[derive(Default)]

@@ -24,8 +24,10 @@ pub(crate) struct Impulse {
     pub obstacle: u32,
     /// Entity of the body.
     pub body: Entity,
-    /// Newton-seconds, world axes.
+    /// What it receives at once, newton-seconds, world axes.
     pub impulse: Vec3,
+    /// What it receives evenly over the tick, newton-seconds, world axes.
+    pub work: Vec3,
     /// Where, relative to the neighbourhood's origin.
     pub point: Vec3,
 }
@@ -42,8 +44,22 @@ impl Solver<'_> {
             return;
         };
         let n = touch.normal;
+        let under_foot = n.dot(self.up) > 0.7;
+        // Whoever pushes a box does so at the height of its middle, as far as he reaches: there it
+        // slides instead of tipping, and what holds it from turning need not be known.
+        let point = if under_foot {
+            touch.point
+        } else {
+            let foot = self.pose.position.dot(self.up);
+            let tall = 2.0 * self.mover.middle;
+            let height = body
+                .center
+                .dot(self.up)
+                .clamp(foot + 0.1 * tall, foot + 0.9 * tall);
+            touch.point + self.up * (height - touch.point.dot(self.up))
+        };
         let own = rest.dot(n) / (self.dt * (1.0 - t).max(1.0e-3));
-        let other = body.velocity_at(touch.point).dot(n);
+        let other = body.velocity_at(point).dot(n);
         // What is pressed in by friction that slowed the body is pushed out again, not followed.
         let pressed = (-touch.distance - TOUCH).max(0.0) * PRESS / self.dt;
         let closing = other - own + pressed.min(1.0);
@@ -55,34 +71,48 @@ impl Solver<'_> {
         {
             return;
         }
-        let mass = body.effective_mass(touch.point, n);
+        let mass = if under_foot {
+            body.effective_mass(point, n)
+        } else {
+            body.effective_mass(body.center, n)
+        };
         let reduced = if mass >= f32::MAX {
             self.config.mass
         } else {
             mass * self.config.mass / (mass + self.config.mass)
         };
         let full = reduced * closing;
+        // What stands on a body weighs on it by a force of its own; only a landing is an impact.
+        if under_foot && self.grounded {
+            return;
+        }
         // What the body brings in itself is stopped whole; beyond that it is the character who works.
         let received = if self.config.pushed_by_bodies {
             (reduced * other).clamp(0.0, full)
         } else {
             0.0
         };
-        let under_foot = n.dot(self.up) > 0.7;
         let given = if under_foot {
             full - received
         } else {
             (full - received).min(self.config.push_strength * self.dt)
         };
-        let impulse = -n * (received + given);
-        if impulse == Vec3::ZERO {
+        let axis = if under_foot { self.up } else { n };
+        let (impulse, work) = if under_foot {
+            (-axis * (received + given), Vec3::ZERO)
+        } else {
+            (-axis * received, -axis * given)
+        };
+        if impulse == Vec3::ZERO && work == Vec3::ZERO {
             return;
         }
-        body.apply(impulse, touch.point);
-        let (linear, turn) = (
-            body.linear_velocity * self.dt,
-            body.angular_velocity * self.dt,
-        );
+        let at = if under_foot { point } else { body.center };
+        body.apply(impulse, at);
+        let before = body;
+        body.apply(work, at);
+        // Work is done evenly over the tick, so half of it counts for the way.
+        let linear = (before.linear_velocity + body.linear_velocity) * (0.5 * self.dt);
+        let turn = body.angular_velocity * self.dt;
         let entity = obstacle.body;
         let center = body.center;
         // All colliders of the body go with it.
@@ -99,7 +129,8 @@ impl Solver<'_> {
             obstacle: touch.obstacle,
             body: entity,
             impulse,
-            point: touch.point,
+            work,
+            point,
         });
     }
 }

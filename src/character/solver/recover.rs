@@ -25,6 +25,9 @@ impl Solver<'_> {
         self.planes.clear();
         for touch in self.touches.iter() {
             let obstacle = &self.near.obstacles[touch.obstacle as usize];
+            if obstacle.kind == ObstacleKind::Dynamic && !self.config.pushed_by_bodies {
+                continue;
+            }
             let depth = -touch.distance - 0.5 * TOUCH;
             let share = match obstacle.kind {
                 ObstacleKind::Static | ObstacleKind::Kinematic => 1.0,

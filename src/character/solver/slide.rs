@@ -63,6 +63,7 @@ impl Solver<'_> {
         if self.touches.is_empty() {
             return rest;
         }
+        self.note_blockers(rest, t);
         for i in 0..self.touches.len() {
             self.exchange_momentum(i, rest, t);
         }
@@ -90,7 +91,6 @@ impl Solver<'_> {
         if !stopped && bent == rest {
             return rest;
         }
-        self.note_blockers(rest, t);
         let (x, left_out) = nearest_yielding(bent.as_dvec3(), self.planes);
         self.pinned |= left_out;
         self.bend_velocity(before, t, ground);

@@ -78,7 +78,9 @@ impl Solver<'_> {
     pub fn touch(&mut self, p: Vec3, t: f32, range: f32) {
         self.touches.clear();
         let pose = self.pose.at(p);
-        let count = self.near.within(range, p.distance(self.pose.position) + 1.0e-5);
+        let count = self
+            .near
+            .within(range, p.distance(self.pose.position) + 1.0e-5);
         for index in 0..count {
             if self.out_of_reach(index, &pose, range) {
                 continue;

@@ -77,7 +77,6 @@ impl Tick<'_, '_, '_, '_> {
         }
     }
 
-
     /// Two characters that close on each other each get their share of the gap between them.
     fn share_gaps(&self, near: &mut Neighbourhood, displacement: Vec3) {
         for piece in &near.pieces {

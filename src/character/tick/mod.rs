@@ -58,8 +58,14 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
     ) -> Option<Self> {
         let (now, asked) = around.view.body_pose(handle)?;
         let mover = body.mover.as_ref()?;
-        let placed = asked != now || now.position != state.last_position;
-        let start = asked;
+        // Rounding on the way through the physics world and the transform is no placement: then
+        // the state knows better.
+        let kept = WorldPose {
+            position: state.last_position,
+            rotation: state.last_rotation,
+        };
+        let placed = !(nearly(asked, kept) && nearly(now, kept));
+        let start = if placed { asked } else { kept };
         let wanted = body::wanted_height(config, intent.stance);
         let reach = Vec3::splat(mover.reach + 0.1);
         let middle = start.position + state.up * mover.middle;
@@ -86,6 +92,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             && !state.crushed
             && !state.overlapping
             && motor.turn_rate.is_none()
+            && !around.filters_changed
             && !around.activity.near(middle - reach, middle + reach);
         if at_rest {
             if report.solved {
@@ -97,7 +104,8 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         report.solved = true;
         report.happened = Happened::default();
         report.hits.clear();
-        report.jump = (asked != now).then_some(asked);
+        report.jump = placed.then_some(asked);
+        report.placed = placed;
         let state = &mut **state;
         if !report.woken {
             report.was = state.ground.state;
@@ -122,8 +130,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
     /// Solves the tick.
     pub fn run(mut self, scratch: &mut Scratch) {
         let dt = self.around.dt;
-        let placed = self.start.position != self.state.last_position;
-        if placed {
+        if self.report.placed {
             self.state.residual = Vec3::ZERO;
             self.state.anchor = None;
         }
@@ -178,6 +185,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
 
         let walking = own.length_squared() > 0.0;
         let mut support = solver.support(p, walking || climbed.is_some());
+        let ramp = own.dot(up) + self.carry.displacement.dot(up);
         let mut snapped = 0.0;
         let rising = !grounded && {
             // On the way up a touch is not a landing.
@@ -233,7 +241,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         }
 
         self.note_crush(&mut solver, p);
-        self.finish(&mut solver, p, rotation, support, climbed, snapped);
+        self.finish(&mut solver, p, rotation, support, climbed, snapped, ramp);
     }
 
     /// Rotation at the end of the tick: upright, turned with the platform, facing as asked.
@@ -291,4 +299,11 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         }
         self.state.crushed = crushed.is_some();
     }
+}
+
+/// Whether two poses differ by no more than rounding.
+fn nearly(a: WorldPose, b: WorldPose) -> bool {
+    let near = 1.0e-5 + 1.0e-6 * b.position.abs().max_element();
+    // Written so that what is not a number is far.
+    a.position.distance(b.position) <= near && a.rotation.dot(b.rotation).abs() >= 1.0 - 1.0e-6
 }

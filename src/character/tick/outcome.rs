@@ -8,7 +8,7 @@ use crate::{
     character::{
         config::SlopeSpeed,
         motor::{along_ground, leave_ground},
-        output::CharacterContact,
+        output::{CharacterContact, StepAttempt},
         platform,
         report::{BodyImpulse, NewHit},
         solver::{Bend, Solver, Support},
@@ -26,6 +26,7 @@ impl Tick<'_, '_, '_, '_> {
         support: Support,
         climbed: Option<(f32, f32)>,
         snapped: f32,
+        ramp: f32,
     ) {
         let dt = self.around.dt;
         let up = self.state.up;
@@ -106,7 +107,13 @@ impl Tick<'_, '_, '_, '_> {
         self.state.ground = ground;
         self.state.volume = solver.near.volumes.iter().copied().min();
 
-        self.note_step(solver, climbed, snapped);
+        // What the slope does not explain is a step, up or down.
+        let rise = if on_ground && was_on_ground {
+            (p - solver.pose.position).dot(up) - ramp
+        } else {
+            0.0
+        };
+        self.note_step(solver, climbed, snapped, rise);
         self.weigh(solver, &support, was_on_ground, origin);
         self.note_contacts(solver, origin);
     }
@@ -152,9 +159,12 @@ impl Tick<'_, '_, '_, '_> {
         }
     }
 
-    fn note_step(&mut self, solver: &Solver, climbed: Option<(f32, f32)>, snapped: f32) {
+    fn note_step(&mut self, solver: &Solver, climbed: Option<(f32, f32)>, snapped: f32, rise: f32) {
         let up = self.state.up;
-        self.contacts.step = solver.step;
+        self.contacts.step = solver.step.map(|attempt| StepAttempt {
+            point: self.start.position + attempt.point,
+            ..attempt
+        });
         self.contacts.snapped = snapped;
         self.contacts.queries = solver.near.queries;
         if let Some((_, height)) = climbed
@@ -165,8 +175,7 @@ impl Tick<'_, '_, '_, '_> {
         self.state.stepping = climbed.is_some();
         let time = self.config.step_smoothing;
         if time > 0.0 {
-            let rise = climbed.map_or(0.0, |(rise, _)| rise)
-                - if snapped > 5.0e-3 { snapped } else { 0.0 };
+            let rise = if rise.abs() > 5.0e-3 { rise } else { 0.0 };
             let fade = ops::exp(-self.around.dt / time);
             let offset = self.state.view_offset * fade - up * rise;
             self.state.view_offset = if offset.length_squared() > 1.0e-8 {
@@ -187,6 +196,7 @@ impl Tick<'_, '_, '_, '_> {
             self.report.impulses.push(BodyImpulse {
                 body: i.body,
                 impulse: i.impulse,
+                force: i.work / self.around.dt,
                 point: origin + i.point,
                 wake: true,
             });
@@ -208,7 +218,8 @@ impl Tick<'_, '_, '_, '_> {
             * self.motor.gravity_scale;
         self.report.impulses.push(BodyImpulse {
             body: obstacle.body,
-            impulse: -self.state.up * (self.config.mass * gravity * self.around.dt),
+            impulse: Vec3::ZERO,
+            force: -self.state.up * (self.config.mass * gravity),
             point: origin + support.point,
             wake: !was_on_ground || self.report.woken,
         });
@@ -229,7 +240,7 @@ impl Tick<'_, '_, '_, '_> {
                 .impulses
                 .iter()
                 .filter(|i| i.obstacle == b.obstacle)
-                .map(|i| i.impulse)
+                .map(|i| i.impulse + i.work)
                 .sum();
             contacts.push(CharacterContact {
                 entity: obstacle.entity,

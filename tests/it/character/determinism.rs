@@ -9,7 +9,10 @@ use bevy::{
     time::TimeUpdateStrategy,
 };
 use bevy_embody::prelude::*;
-use bevy_rapier3d::{prelude::*, rapier::dynamics::RigidBodySet};
+use bevy_rapier3d::{
+    prelude::*,
+    rapier::prelude::{ColliderSet, DefaultBroadPhase, IslandManager, NarrowPhase, RigidBodySet},
+};
 use embody_scenes::{Make, Mover, Patch, Sim, Stairs};
 
 use super::support::*;
@@ -217,18 +220,45 @@ fn restore(sim: &mut Sim, who: Entity, saved: &(Transform, CharacterState, Chara
     insert(sim, who, saved.clone());
 }
 
-/// The bodies of the physics world: a rollback restores them too.
-fn physics_bodies(sim: &mut Sim) -> &mut RigidBodySet {
+/// What of the physics world a rollback restores: what moves in it, and where queries find it.
+#[derive(Clone)]
+struct Physics {
+    bodies: RigidBodySet,
+    colliders: ColliderSet,
+    broad_phase: DefaultBroadPhase,
+    narrow_phase: NarrowPhase,
+    islands: IslandManager,
+}
+
+type Context = (
+    &'static mut RapierRigidBodySet,
+    &'static mut RapierContextColliders,
+    &'static mut RapierContextSimulation,
+);
+
+fn save_physics(sim: &mut Sim) -> Physics {
     let world = sim.app.world_mut();
-    let context = world
-        .query_filtered::<Entity, With<RapierRigidBodySet>>()
-        .single(world)
-        .expect("one physics world");
-    &mut world
-        .get_mut::<RapierRigidBodySet>(context)
-        .expect("it was just found")
-        .into_inner()
-        .bodies
+    let mut context = world.query::<Context>();
+    let (bodies, colliders, simulation) = context.single_mut(world).expect("one physics world");
+    Physics {
+        bodies: bodies.bodies.clone(),
+        colliders: colliders.colliders.clone(),
+        broad_phase: simulation.broad_phase.clone(),
+        narrow_phase: simulation.narrow_phase.clone(),
+        islands: simulation.islands.clone(),
+    }
+}
+
+fn restore_physics(sim: &mut Sim, physics: &Physics) {
+    let world = sim.app.world_mut();
+    let mut context = world.query::<Context>();
+    let (mut bodies, mut colliders, mut simulation) =
+        context.single_mut(world).expect("one physics world");
+    bodies.bodies = physics.bodies.clone();
+    colliders.colliders = physics.colliders.clone();
+    simulation.broad_phase = physics.broad_phase.clone();
+    simulation.narrow_phase = physics.narrow_phase.clone();
+    simulation.islands = physics.islands.clone();
 }
 
 /// A static level with a lift and a turntable, on which a save mid-way is restored.
@@ -279,7 +309,7 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
                 let ticks = sim.app.world().get::<Mover>(mover).expect("a mover").ticks;
                 (mover, sim.get::<Transform>(mover), ticks)
             });
-            let bodies = physics_bodies(&mut sim).clone();
+            let physics = save_physics(&mut sim);
             let run = |sim: &mut Sim| -> Vec<_> {
                 (0..60)
                     .map(|tick| {
@@ -296,7 +326,7 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
                     insert(&mut sim, mover, transform);
                     edit::<Mover>(&mut sim, mover, |mover| mover.ticks = ticks);
                 }
-                *physics_bodies(&mut sim) = bodies.clone();
+                restore_physics(&mut sim, &physics);
                 let again = run(&mut sim);
                 let differ = first.iter().zip(&again).position(|(a, b)| a != b);
                 found.holds(

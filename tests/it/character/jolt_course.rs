@@ -261,7 +261,7 @@ fn a_jump_beside_a_box_edge_goes_straight_up() {
         let start = sim.position(who).x;
         sim.intent(who, |intent| intent.jump = true);
         let (mut off, mut high): (f32, f32) = (0.0, 0.0);
-        for _ in 0..(0.45 * hz) as usize {
+        for _ in 0..(0.55 * hz) as usize {
             sim.ticks(1);
             off = off.max((sim.position(who).x - start).abs());
             off = off.max(sim.state(who).velocity.with_y(0.0).length());

@@ -3,6 +3,7 @@
 mod support;
 mod warnings;
 
+mod bad_input;
 mod corners;
 mod crowd;
 mod determinism;
@@ -12,6 +13,7 @@ mod filters;
 mod floor;
 mod fuzz;
 mod jolt_course;
+mod leaving;
 mod motor;
 mod platforms;
 mod pushing;

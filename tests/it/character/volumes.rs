@@ -212,7 +212,7 @@ fn a_ladder_is_climbed_down_to_the_floor_and_jumped_off() {
         sim.seconds(3.0);
         found.near(format!("{hz} Hz: down"), sim.position(who).y, 0.0, 0.02);
         // Up again and off.
-        sim.walk(who, Vec3::new(0.3, 0.9, 0.0));
+        sim.walk(who, Vec3::new(0.6, 0.8, 0.0));
         sim.seconds(1.2);
         found.holds(
             format!("{hz} Hz: climbs"),

@@ -1,0 +1,240 @@
+//! Numbers that are none: told once, and recovered from when they are mended.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use embody_scenes::Sim;
+
+use super::{support::*, warnings};
+
+/// Runs a scene with one bad thing in it: it must stay finite, tell about it at most once, and work
+/// again when the bad thing is mended.
+fn bad(
+    found: &mut Findings,
+    name: &str,
+    spoil: impl Fn(&mut Sim, Entity),
+    mend: impl Fn(&mut Sim, Entity),
+    warned: bool,
+) {
+    for hz in [30.0, 240.0] {
+        let mut sim = Sim::new(hz);
+        warnings::unique_entities(&mut sim);
+        sim.floor(0.0);
+        let who = runner(&mut sim, Vec3::ZERO);
+        let other = runner(&mut sim, Vec3::new(0.0, 0.0, 5.0));
+        sim.seconds(0.5);
+        spoil(&mut sim, who);
+        let mut all_finite = true;
+        for _ in 0..hz as usize {
+            sim.ticks(1);
+            all_finite &= finite(&sim, other);
+        }
+        let case = format!("{hz} Hz {name}");
+        found.holds(format!("{case}: another finite"), all_finite);
+        found.holds(format!("{case}: finite"), finite(&sim, who));
+        let told = warnings::about(who);
+        found.at_most(format!("{case}: warnings {told:?}"), told.len() as f32, 1.0);
+        if warned {
+            found.at_least(format!("{case}: warnings"), told.len() as f32, 1.0);
+        }
+        found.at_most(
+            format!("{case}: warnings about another"),
+            warnings::about(other).len() as f32,
+            0.0,
+        );
+        // The rest of the world goes on.
+        let before = sim.position(other).x;
+        sim.walk(other, Vec3::X);
+        sim.seconds(0.5);
+        found.within(
+            format!("{case}: another walks"),
+            sim.position(other).x - before,
+            2.5,
+            0.001,
+        );
+        // Mended, it works.
+        mend(&mut sim, who);
+        sim.seconds(0.5);
+        found.holds(format!("{case}: finite when mended"), finite(&sim, who));
+        let before = sim.position(who);
+        sim.walk(who, Vec3::X);
+        sim.seconds(0.5);
+        found.within(
+            format!("{case}: walks when mended"),
+            sim.position(who).x - before.x,
+            2.5,
+            0.01,
+        );
+    }
+}
+
+#[test]
+fn an_intent_that_is_no_number_is_refused_once_and_recovered_from() {
+    let mut found = Findings::new();
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for axis in [Vec3::X, Vec3::Y, Vec3::ONE] {
+            bad(
+                &mut found,
+                &format!("movement {value} {axis}"),
+                |sim, who| {
+                    sim.walk(
+                        who,
+                        Vec3::select(axis.cmpgt(Vec3::ZERO), Vec3::splat(value), Vec3::ZERO),
+                    )
+                },
+                |sim, who| sim.walk(who, Vec3::ZERO),
+                value.is_nan(),
+            );
+        }
+        bad(
+            &mut found,
+            &format!("facing {value}"),
+            |sim, who| {
+                edit::<CharacterMotor>(sim, who, |motor| motor.turn_rate = Some(5.0));
+                sim.intent(who, |intent| intent.facing = Some(Vec3::splat(value)));
+            },
+            |sim, who| {
+                edit::<CharacterMotor>(sim, who, |motor| motor.turn_rate = None);
+                sim.intent(who, |intent| intent.facing = None);
+            },
+            false,
+        );
+    }
+}
+
+#[test]
+fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from() {
+    type Spoil = fn(&mut Character, f32);
+    let fields: [(&str, Spoil, &[f32]); 9] = [
+        (
+            "radius",
+            |c, v| {
+                c.shape = CharacterShape::Capsule {
+                    radius: v,
+                    height: 1.8,
+                }
+            },
+            &[f32::NAN, f32::INFINITY, 0.0, -1.0],
+        ),
+        (
+            "height",
+            |c, v| {
+                c.shape = CharacterShape::Capsule {
+                    radius: 0.3,
+                    height: v,
+                }
+            },
+            &[f32::NAN, f32::INFINITY, 0.0, -1.0],
+        ),
+        (
+            "max_slope",
+            |c, v| c.max_slope = v,
+            &[f32::NAN, f32::INFINITY, -0.1],
+        ),
+        (
+            "step height",
+            |c, v| {
+                c.step = Some(StepConfig {
+                    height: v,
+                    ..default()
+                })
+            },
+            &[f32::NAN, f32::INFINITY, -1.0],
+        ),
+        (
+            "ground_snap",
+            |c, v| c.ground_snap = v,
+            &[f32::NAN, f32::INFINITY, -1.0],
+        ),
+        (
+            "recovery_speed",
+            |c, v| c.recovery_speed = v,
+            &[f32::NAN, -1.0],
+        ),
+        ("mass", |c, v| c.mass = v, &[f32::NAN, f32::INFINITY, -1.0]),
+        (
+            "push_strength",
+            |c, v| c.push_strength = v,
+            &[f32::NAN, -1.0],
+        ),
+        (
+            "step_smoothing",
+            |c, v| c.step_smoothing = v,
+            &[f32::NAN, -1.0],
+        ),
+    ];
+    let mut found = Findings::new();
+    for (field, spoil, values) in fields {
+        for &value in values {
+            bad(
+                &mut found,
+                &format!("{field} = {value}"),
+                |sim, who| edit::<Character>(sim, who, |character| spoil(character, value)),
+                |sim, who| {
+                    edit::<Character>(sim, who, |character| *character = Character::default())
+                },
+                value.is_nan() || value < 0.0 || field == "radius" || field == "height",
+            );
+        }
+    }
+}
+
+#[test]
+fn a_motor_that_is_no_number_is_refused_once_and_recovered_from() {
+    type Spoil = fn(&mut CharacterMotor, f32);
+    let fields: [(&str, Spoil); 6] = [
+        ("walk_speed", |m, v| m.walk_speed = v),
+        ("acceleration", |m, v| m.acceleration = v),
+        ("friction", |m, v| m.friction = v),
+        ("jump_height", |m, v| m.jump_height = v),
+        ("gravity_scale", |m, v| m.gravity_scale = v),
+        ("max_fall_speed", |m, v| m.max_fall_speed = v),
+    ];
+    let mut found = Findings::new();
+    for (field, spoil) in fields {
+        bad(
+            &mut found,
+            &format!("{field} = NaN"),
+            |sim, who| {
+                edit::<CharacterMotor>(sim, who, |motor| spoil(motor, f32::NAN));
+                sim.walk(who, Vec3::X);
+            },
+            |sim, who| {
+                edit::<CharacterMotor>(sim, who, |motor| *motor = prompt());
+                sim.walk(who, Vec3::ZERO);
+            },
+            true,
+        );
+    }
+}
+
+#[test]
+fn a_transform_or_velocity_that_is_no_number_is_recovered_from() {
+    let mut found = Findings::new();
+    for value in [f32::NAN, f32::INFINITY] {
+        bad(
+            &mut found,
+            &format!("position {value}"),
+            |sim, who| sim.place(who, Vec3::new(value, 0.0, 0.0)),
+            |sim, who| sim.place(who, Vec3::ZERO),
+            false,
+        );
+        bad(
+            &mut found,
+            &format!("rotation {value}"),
+            |sim, who| {
+                edit::<Transform>(sim, who, |t| {
+                    t.rotation = Quat::from_xyzw(value, 0.0, 0.0, 1.0)
+                })
+            },
+            |sim, who| edit::<Transform>(sim, who, |t| *t = Transform::IDENTITY),
+            false,
+        );
+        bad(
+            &mut found,
+            &format!("velocity {value}"),
+            |sim, who| set_velocity(sim, who, Vec3::splat(value)),
+            |sim, who| set_velocity(sim, who, Vec3::ZERO),
+            false,
+        );
+    }
+}
