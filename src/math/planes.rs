@@ -36,8 +36,8 @@ impl HalfSpace {
 
 const TOLERANCE: f64 = 1.0e-9;
 /// An answer farther than this many times the largest push comes out of planes that are parallel
-/// but for rounding.
-const FAR: f64 = 20.0;
+/// but for rounding, or out of a wedge so sharp that what it presses on gives way before.
+const FAR: f64 = 3.0;
 
 /// The nearest point to `x0` that keeps all `planes`, or `None` if there is none.
 pub(crate) fn nearest(x0: DVec3, planes: &[HalfSpace]) -> Option<DVec3> {
