@@ -79,7 +79,7 @@ fn an_intent_that_is_no_number_is_refused_once_and_recovered_from() {
                     sim.walk(
                         who,
                         Vec3::select(axis.cmpgt(Vec3::ZERO), Vec3::splat(value), Vec3::ZERO),
-                    )
+                    );
                 },
                 |sim, who| sim.walk(who, Vec3::ZERO),
                 value.is_nan(),
@@ -136,7 +136,7 @@ fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from
                 c.step = Some(StepConfig {
                     height: v,
                     ..default()
-                })
+                });
             },
             &[f32::NAN, f32::INFINITY, -1.0],
         ),
@@ -170,7 +170,7 @@ fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from
                 &format!("{field} = {value}"),
                 |sim, who| edit::<Character>(sim, who, |character| spoil(character, value)),
                 |sim, who| {
-                    edit::<Character>(sim, who, |character| *character = Character::default())
+                    edit::<Character>(sim, who, |character| *character = Character::default());
                 },
                 value.is_nan() || value < 0.0 || field == "radius" || field == "height",
             );
@@ -223,8 +223,8 @@ fn a_transform_or_velocity_that_is_no_number_is_recovered_from() {
             &format!("rotation {value}"),
             |sim, who| {
                 edit::<Transform>(sim, who, |t| {
-                    t.rotation = Quat::from_xyzw(value, 0.0, 0.0, 1.0)
-                })
+                    t.rotation = Quat::from_xyzw(value, 0.0, 0.0, 1.0);
+                });
             },
             |sim, who| edit::<Transform>(sim, who, |t| *t = Transform::IDENTITY),
             false,

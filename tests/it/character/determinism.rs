@@ -125,7 +125,7 @@ fn script(sim: &mut Sim, crowd: &[Entity], tick: usize) {
             intent.movement = wish;
             intent.jump = (tick + i * 13) % 50 < 3;
             intent.sprint = i % 3 == 0;
-            intent.stance = if (tick / 60 + i) % 4 == 0 {
+            intent.stance = if (tick / 60 + i).is_multiple_of(4) {
                 Stance::Crouch
             } else {
                 Stance::Stand

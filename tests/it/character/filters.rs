@@ -67,7 +67,7 @@ fn a_list_of_ignored_entities_is_passed() {
     let mut found = Findings::new();
     for hz in RATES {
         let x = run_at_wall(hz, |sim, who, wall| {
-            insert(sim, who, CharacterIgnores(vec![wall]))
+            insert(sim, who, CharacterIgnores(vec![wall]));
         });
         expect(&mut found, &format!("{hz} Hz"), x, true);
     }
@@ -76,14 +76,14 @@ fn a_list_of_ignored_entities_is_passed() {
 #[test]
 fn a_predicate_decides_for_each_collider() {
     fn nothing_of_the_first(_: Entity, other: Entity) -> bool {
-        other.index_u32() % 2 == 0
+        other.index_u32().is_multiple_of(2)
     }
     let mut found = Findings::new();
     for hz in RATES {
         // Two walls in a row, of which the predicate lets one through: the one with an odd index.
         let mut sim = Sim::new(hz);
         let mut floor = sim.floor(0.0);
-        while floor.index_u32() % 2 != 0 {
+        while !floor.index_u32().is_multiple_of(2) {
             sim.app.world_mut().despawn(floor);
             floor = sim.floor(0.0);
             sim.spawn(Misty);

@@ -200,7 +200,7 @@ fn a_new_up_is_turned_to_at_the_asked_rate() {
         ));
         sim.seconds(0.2);
         edit::<CharacterUp>(&mut sim, who, |up| {
-            up.direction = UpDirection::World(Vec3::X)
+            up.direction = UpDirection::World(Vec3::X);
         });
         sim.seconds(0.7);
         let up = sim.state(who).up;
@@ -225,7 +225,7 @@ fn a_new_up_is_turned_to_at_the_asked_rate() {
         );
         // Right over, where no axis is better than another.
         edit::<CharacterUp>(&mut sim, who, |up| {
-            up.direction = UpDirection::World(Vec3::NEG_X)
+            up.direction = UpDirection::World(Vec3::NEG_X);
         });
         sim.seconds(4.0);
         found.at_most(
