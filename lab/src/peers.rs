@@ -75,9 +75,18 @@ impl World {
         }
     }
 
-    /// The characters' work, microseconds per character and tick.
+    /// The characters' work, microseconds per character and tick. On one thread it is the time on a
+    /// processor, which other programs cannot add to; on several the time that passed.
     fn work(&self) -> f64 {
-        self.typical(|run| &run.work) / f64::from(self.options.characters)
+        match self.options.threads {
+            1 => self.typical(|run| &run.busy) / f64::from(self.options.characters),
+            _ => self.wall(),
+        }
+    }
+
+    /// The time that passed during the characters' work, microseconds per character and tick.
+    fn wall(&self) -> f64 {
+        self.typical(|run| &run.wall) / f64::from(self.options.characters)
     }
 
     /// An update of the app, microseconds.
@@ -176,7 +185,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
             ));
         }
     }
-    let speed_up = sides[0].work() / sides[2].work();
+    let speed_up = sides[0].wall() / sides[2].wall();
     println!("peers {scene} threads=2 speedup={speed_up:.2}x");
     checks.push(Check::timing(
         "speed-up by two threads",
@@ -210,6 +219,21 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
         different,
         Must::Equal,
         1.0,
+    ));
+
+    let lost = sides[0]
+        .runs
+        .iter()
+        .map(|run| run.lost.len())
+        .max()
+        .unwrap_or(0);
+    println!("left the level {scene} n={lost}");
+    // Somebody far up in the air is cheap: figures with such are none.
+    checks.push(Check::timing(
+        "characters that left the level",
+        lost as f64,
+        Must::Equal,
+        0.0,
     ));
 
     // Large crowds take long; the same short stretch of time is measured for every size.
@@ -274,8 +298,9 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
 fn write_out(folder: &Path, worlds: &[&World], checks: &[Check]) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
     let mut lines = String::new();
-    let mut ticks =
-        String::from("scene,side,threads,characters,run,tick,work_ns,update_ns,allocations\n");
+    let mut ticks = String::from(
+        "scene,side,threads,characters,run,tick,wall_ns,busy_ns,update_ns,allocations\n",
+    );
     for world in worlds {
         let o = &world.options;
         let line = Line {
@@ -291,13 +316,14 @@ fn write_out(folder: &Path, worlds: &[&World], checks: &[Check]) -> std::io::Res
         lines += &serde_json::to_string(&line)?;
         lines.push('\n');
         for (r, run) in world.runs.iter().enumerate() {
-            for (i, work) in run.work.iter().enumerate() {
+            for (i, wall) in run.wall.iter().enumerate() {
                 ticks += &format!(
-                    "{},{},{},{},{r},{i},{work},{},{}\n",
+                    "{},{},{},{},{r},{i},{wall},{},{},{}\n",
                     o.scene,
                     o.only.name(),
                     o.threads,
                     o.characters,
+                    run.busy[i],
                     run.whole[i],
                     run.allocations[i],
                 );

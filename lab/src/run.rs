@@ -16,7 +16,7 @@ use embody_scenes::{
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    probe::Probe,
+    probe::{Probe, on_processor},
     scene,
     side::{Side, SidePlugin},
 };
@@ -50,9 +50,11 @@ pub struct Options {
 /// What a world cost.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Measured {
-    /// The characters' work, nanoseconds in each tick.
-    pub work: Vec<u64>,
-    /// A whole update of the app, nanoseconds in each tick.
+    /// The characters' work, nanoseconds in each tick: time that passed.
+    pub wall: Vec<u64>,
+    /// The same, but time that the thread was on a processor; of meaning on one thread only.
+    pub busy: Vec<u64>,
+    /// A whole update of the app, nanoseconds in each tick; on one thread its time on a processor.
     pub whole: Vec<u64>,
     /// Heap allocations during the characters' work, in each tick.
     pub allocations: Vec<u64>,
@@ -60,8 +62,19 @@ pub struct Measured {
     pub hash: u64,
     /// Mean level way of a walker in a tick, of what it wished for: shows that they do walk.
     pub progress: f64,
-    /// Characters below the lowest ground in the end.
-    pub lost: usize,
+    /// Fastest that a walker went, metres per second.
+    pub fastest: f32,
+    /// Characters that left the level: fell below the ground, or were thrown high up.
+    pub lost: Vec<Lost>,
+}
+
+/// Where a character was before and after it left the level.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Lost {
+    pub id: u32,
+    pub tick: usize,
+    pub last: [f32; 3],
+    pub at: [f32; 3],
 }
 
 /// Runs and prints.
@@ -73,23 +86,30 @@ pub fn run(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     let mean = |of: &[u64]| of.iter().sum::<u64>() as f64 / of.len().max(1) as f64 * 1e-3;
-    let work = mean(&measured.work);
+    let n = f64::from(options.characters.max(1));
     println!(
-        "profile {} side={} threads={} n={} steps={} us={:.3} work={:.1}us update={:.1}us allocations={} \
-         progress={:.2} lost={} hash={:016x}",
+        "profile {} side={} threads={} n={} steps={} us={:.3} busy={:.3}us update={:.1}us allocations={} \
+         progress={:.2} fastest={:.1}m/s lost={} hash={:016x}",
         options.scene,
         options.only.name(),
         options.threads,
         options.characters,
         options.steps,
-        work / f64::from(options.characters.max(1)),
-        work,
+        mean(&measured.wall) / n,
+        mean(&measured.busy) / n,
         mean(&measured.whole),
         measured.allocations.iter().sum::<u64>(),
         measured.progress,
-        measured.lost,
+        measured.fastest,
+        measured.lost.len(),
         measured.hash,
     );
+    for lost in &measured.lost {
+        println!(
+            "lost {} in tick {} from {:?} to {:?}",
+            lost.id, lost.tick, lost.last, lost.at
+        );
+    }
     Ok(())
 }
 
@@ -107,27 +127,37 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
     }
     sim.ticks(options.warm_up.unwrap_or(scene.warm_up));
     let mut measured = Measured {
-        work: Vec::with_capacity(options.steps),
+        wall: Vec::with_capacity(options.steps),
+        busy: Vec::with_capacity(options.steps),
         whole: Vec::with_capacity(options.steps),
         allocations: Vec::with_capacity(options.steps),
         hash: 0,
         progress: 0.0,
-        lost: 0,
+        fastest: 0.0,
+        lost: Vec::new(),
     };
     let mut way = Way::default();
     sim.app.world_mut().resource_mut::<Probe>().take();
-    for _ in 0..options.steps {
-        let start = Instant::now();
+    let alone = options.threads == 1;
+    for tick in 0..options.steps {
+        let start = (Instant::now(), on_processor());
         sim.ticks(1);
-        measured.whole.push(start.elapsed().as_nanos() as u64);
-        let (work, allocations) = sim.app.world_mut().resource_mut::<Probe>().take();
-        measured.work.push(work.as_nanos() as u64);
-        measured.allocations.push(allocations);
-        way.follow(sim.app.world_mut());
+        let whole = if alone {
+            on_processor() - start.1
+        } else {
+            start.0.elapsed()
+        };
+        let spent = sim.app.world_mut().resource_mut::<Probe>().take();
+        measured.whole.push(whole.as_nanos() as u64);
+        measured.wall.push(spent.wall.as_nanos() as u64);
+        measured.busy.push(spent.busy.as_nanos() as u64);
+        measured.allocations.push(spent.allocations);
+        way.follow(sim.app.world_mut(), tick);
     }
     measured.hash = hash(sim.app.world_mut());
-    measured.progress = way.went / way.wished;
-    measured.lost = way.lost();
+    measured.progress = way.went / way.wished.max(f64::MIN_POSITIVE);
+    measured.fastest = way.fastest;
+    measured.lost = way.lost;
     Ok(measured)
 }
 
@@ -147,28 +177,40 @@ fn run_alone(app: &mut App) {
     }
 }
 
+/// Nobody gets above this without being thrown, metres.
+const HIGHEST: f32 = 6.0;
+
 /// How far walkers got.
 #[derive(Default)]
 struct Way {
     last: BTreeMap<StableId, Vec3>,
     went: f64,
     wished: f64,
+    fastest: f32,
+    lost: Vec<Lost>,
 }
 
 impl Way {
-    fn follow(&mut self, world: &mut World) {
+    fn follow(&mut self, world: &mut World, tick: usize) {
         let mut walkers = world.query::<(&StableId, &Walker, &Transform)>();
         for (id, walker, transform) in walkers.iter(world) {
             let at = transform.translation;
-            if let Some(last) = self.last.insert(*id, at) {
-                self.went += f64::from((at - last).with_y(0.0).length());
-                self.wished += f64::from(walker.wish.length() / 60.0);
+            let Some(last) = self.last.insert(*id, at) else {
+                continue;
+            };
+            self.went += f64::from((at - last).with_y(0.0).length());
+            self.wished += f64::from(walker.wish.length() / 60.0);
+            self.fastest = self.fastest.max((at - last).length() * 60.0);
+            let inside = |p: Vec3| (LOWEST - 0.1..HIGHEST).contains(&p.y);
+            if !inside(at) && inside(last) {
+                self.lost.push(Lost {
+                    id: id.0,
+                    tick,
+                    last: last.to_array(),
+                    at: at.to_array(),
+                });
             }
         }
-    }
-
-    fn lost(&self) -> usize {
-        self.last.values().filter(|at| at.y < LOWEST - 1.0).count()
     }
 }
 

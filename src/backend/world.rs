@@ -216,6 +216,7 @@ impl<'a> PhysicsView<'a> {
                 let reach = (request.high - request.low).length() * 0.5;
                 obstacle.motion.reach(middle, reach)
             };
+        out.slack = out.slack.max(slack);
         let index = out.obstacles.len() as u32;
         out.obstacles.push(obstacle);
         let pieces = out.pieces.len();

@@ -4,7 +4,7 @@
 //! Characters are solved in parallel against the same unchanging world and each other's published
 //! wishes, and every effect is collected first, so neither threads nor order matter.
 
-use bevy::{prelude::*, utils::Parallel};
+use bevy::{ecs::batching::BatchingStrategy, prelude::*, utils::Parallel};
 use bevy_rapier3d::{
     plugin::context::RapierContextEntityLink,
     prelude::{Collider, CollisionGroups, RapierColliderHandle, RapierRigidBodyHandle},
@@ -98,60 +98,65 @@ pub(super) fn solve_characters(
     if !(dt > 0.0) {
         return;
     }
-    characters.par_iter_mut().for_each(
-        |(
-            (entity, config, motor, intent),
-            (link, handle),
-            (groups, filter, ignores),
-            mut body,
-            mut state,
-            mut contacts,
-            mut report,
-        )| {
-            let Some(view) = worlds.of(link) else { return };
-            if !view.active {
-                return;
-            }
-            // A component that was taken away is a change as well.
-            let filters = u8::from(groups.is_some())
-                | u8::from(filter.is_some()) << 1
-                | u8::from(ignores.is_some()) << 2;
-            let filters_changed = body.filters != filters
-                || groups.as_ref().is_some_and(Ref::is_changed)
-                || filter.as_ref().is_some_and(Ref::is_changed)
-                || ignores.as_ref().is_some_and(Ref::is_changed);
-            if body.filters != filters {
-                body.bypass_change_detection().filters = filters;
-            }
-            let surroundings = Surroundings {
-                filters_changed,
-                entity,
-                view,
-                dt,
-                groups: groups.as_deref().copied().unwrap_or_default(),
-                filter: filter.as_deref(),
-                ignores: ignores.as_deref(),
-                activity: &activity,
-                surfaces: &surfaces,
-                others: &others,
-                walls: &walls,
-            };
-            let Some(tick) = Tick::begin(
-                &surroundings,
-                config,
-                motor,
-                intent,
-                handle,
-                &mut body,
-                &mut state,
-                &mut contacts,
-                &mut report,
-            ) else {
-                return;
-            };
-            scratch.scope(|scratch| tick.run(scratch));
-        },
-    );
+    // Costs differ from one character to the next: small batches even them out.
+    let batches = BatchingStrategy::new().batches_per_thread(4);
+    characters
+        .par_iter_mut()
+        .batching_strategy(batches)
+        .for_each(
+            |(
+                (entity, config, motor, intent),
+                (link, handle),
+                (groups, filter, ignores),
+                mut body,
+                mut state,
+                mut contacts,
+                mut report,
+            )| {
+                let Some(view) = worlds.of(link) else { return };
+                if !view.active {
+                    return;
+                }
+                // A component that was taken away is a change as well.
+                let filters = u8::from(groups.is_some())
+                    | u8::from(filter.is_some()) << 1
+                    | u8::from(ignores.is_some()) << 2;
+                let filters_changed = body.filters != filters
+                    || groups.as_ref().is_some_and(Ref::is_changed)
+                    || filter.as_ref().is_some_and(Ref::is_changed)
+                    || ignores.as_ref().is_some_and(Ref::is_changed);
+                if body.filters != filters {
+                    body.bypass_change_detection().filters = filters;
+                }
+                let surroundings = Surroundings {
+                    filters_changed,
+                    entity,
+                    view,
+                    dt,
+                    groups: groups.as_deref().copied().unwrap_or_default(),
+                    filter: filter.as_deref(),
+                    ignores: ignores.as_deref(),
+                    activity: &activity,
+                    surfaces: &surfaces,
+                    others: &others,
+                    walls: &walls,
+                };
+                let Some(tick) = Tick::begin(
+                    &surroundings,
+                    config,
+                    motor,
+                    intent,
+                    handle,
+                    &mut body,
+                    &mut state,
+                    &mut contacts,
+                    &mut report,
+                ) else {
+                    return;
+                };
+                scratch.scope(|scratch| tick.run(scratch));
+            },
+        );
 }
 
 /// Writes what the ticks decided: impulses by order of character, then the characters' poses.
@@ -166,6 +171,7 @@ pub(super) fn apply_effects(
     mut impulses: Local<Vec<(Entity, RapierContextEntityLink, BodyImpulse)>>,
 ) {
     impulses.clear();
+    impulses.reserve(64);
     for (entity, link, handle, mut report) in &mut characters {
         if !report.solved {
             continue;

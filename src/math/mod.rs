@@ -1,6 +1,7 @@
 //! Small pure helpers: distances between simple shapes, nearest points of constraint sets.
 
 pub(crate) mod cuboid;
+pub(crate) mod lanes;
 pub(crate) mod planes;
 pub(crate) mod segment;
 pub(crate) mod triangle;

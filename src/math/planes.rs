@@ -35,11 +35,20 @@ impl HalfSpace {
 }
 
 const TOLERANCE: f64 = 1.0e-9;
+/// An answer farther than this many times the largest push comes out of planes that are parallel
+/// but for rounding, or out of a wedge so sharp that what it presses on gives way before.
+const FAR: f64 = 3.0;
 
 /// The nearest point to `x0` that keeps all `planes`, or `None` if there is none.
 pub(crate) fn nearest(x0: DVec3, planes: &[HalfSpace]) -> Option<DVec3> {
     let slack = TOLERANCE * (1.0 + x0.length());
-    let keeps = |x: DVec3| planes.iter().all(|p| p.normal.dot(x) >= p.bound - slack);
+    let push = planes.iter().map(|p| p.bound).fold(0.0, f64::max);
+    // Where nothing pushes, standing still is allowed, so the nearest point is no farther than `x0`.
+    let most = x0.length() + FAR * push + slack;
+    let keeps = |x: DVec3| {
+        planes.iter().all(|p| p.normal.dot(x) >= p.bound - slack)
+            && x.length_squared() <= most * most
+    };
     if keeps(x0) {
         return Some(x0);
     }
@@ -74,7 +83,8 @@ pub(crate) fn nearest(x0: DVec3, planes: &[HalfSpace]) -> Option<DVec3> {
             }
         }
     }
-    None
+    // Rounding hides a corner in which nothing but standing still is left.
+    (push <= 0.0).then_some(DVec3::ZERO)
 }
 
 /// The nearest point to `x0` on two planes, if both push.
@@ -219,6 +229,25 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn walls_that_lean_by_rounding_only_throw_nobody_out_between_them() {
+        let walls = [
+            Vec3::new(-1.0, 0.0, 0.0),
+            Vec3::new(0.023_583_256, 0.997_261_17, 0.070_099_96),
+            Vec3::new(0.227_760_84, -8.940_697e-8, 0.973_716_86),
+            Vec3::new(0.875_974_54, -1.341_104_5e-7, -0.482_357_8),
+        ]
+        .map(|normal| HalfSpace::new(normal, 0.0, 0));
+        for x0 in [
+            DVec3::new(0.06, 0.005, -0.08),
+            DVec3::new(0.0, 0.35, -5.0),
+            DVec3::new(3.0, -0.1, 0.2),
+        ] {
+            let x = nearest(x0, &walls).unwrap();
+            assert!(x.length() <= x0.length() + 1e-6, "{x0} to {x}");
         }
     }
 

@@ -5,9 +5,9 @@
 //! holds an edge or the other end. A segment that passes through is pushed out along the face
 //! normal, to the side that needs less.
 
-use bevy::math::Vec3;
+use bevy::math::{Vec3, Vec4};
 
-use super::{Closest, direction_or, segment};
+use super::{Closest, direction_or, lanes::Lanes, segment};
 
 /// A triangle with its unit normal.
 #[derive(Clone, Copy, Debug)]
@@ -47,20 +47,33 @@ impl Triangle {
             && (self.a - self.c).cross(p - self.c).dot(n) >= 0.0
     }
 
-    /// Closest pair with the segment `p0 p1`.
+    /// The edges, one to a lane; the fourth lane repeats the third.
+    fn edges(&self) -> (Lanes, Lanes) {
+        let from = Lanes::new(self.a, self.b, self.c);
+        let to = Lanes::new(self.b, self.c, self.a);
+        (from, to.sub(&from))
+    }
+
+    /// Closest pair with the segment `p0 p1`. All three edges at once, a lane each.
     pub fn closest_to_segment(&self, p0: Vec3, p1: Vec3) -> Closest {
-        let h0 = (p0 - self.a).dot(self.normal);
-        let h1 = (p1 - self.a).dot(self.normal);
+        let n = self.normal;
+        let h0 = (p0 - self.a).dot(n);
+        let h1 = (p1 - self.a).dot(n);
         // On the side where the segment is, the face looks at it.
-        let face = if h0 + h1 >= 0.0 {
-            self.normal
-        } else {
-            -self.normal
-        };
+        let face = if h0 + h1 >= 0.0 { n } else { -n };
+        let (from, along) = self.edges();
+        // How far inside each edge the ends project, times the edge's length.
+        let inward = Lanes::splat(n).cross(&along);
+        let r0 = Lanes::splat(p0).sub(&from);
+        let inside0 = inward.dot(&r0);
+        let d = Lanes::splat(p1 - p0);
+        let change = inward.dot(&d);
+        let inside1 = inside0 + change;
+        let covers = |inside: Vec4| inside.cmpge(Vec4::ZERO).all();
 
         if h0 * h1 <= 0.0 && (h0 != 0.0 || h1 != 0.0) {
-            let crossing = p0 + (p1 - p0) * (h0 / (h0 - h1));
-            if self.covers(crossing) {
+            let t = h0 / (h0 - h1);
+            if covers(inside0 + change * t) {
                 let depth = if h0 + h1 >= 0.0 {
                     -h0.min(h1)
                 } else {
@@ -69,61 +82,83 @@ impl Triangle {
                 return Closest {
                     distance: -depth,
                     normal: face,
-                    point: crossing,
+                    point: p0 + (p1 - p0) * t,
                     on_face: true,
                     surface: face,
                 };
             }
         }
 
-        let (near, height) = if h0.abs() <= h1.abs() {
-            (p0, h0)
+        let (near, height, over) = if h0.abs() <= h1.abs() {
+            (p0, h0, inside0)
         } else {
-            (p1, h1)
+            (p1, h1, inside1)
         };
-        if h0 * h1 > 0.0 && self.covers(near) {
+        if h0 * h1 > 0.0 && covers(over) {
             return Closest {
                 distance: height.abs(),
                 normal: face,
-                point: near - self.normal * height,
+                point: near - n * height,
                 on_face: true,
                 surface: face,
             };
         }
 
-        let mut best = f32::MAX;
-        let mut on_segment = p0;
-        let mut on_triangle = self.a;
-        for (q0, q1) in [(self.a, self.b), (self.b, self.c), (self.c, self.a)] {
-            let (s, t) = segment::closest_parameters(p0, p1, q0, q1);
-            let x = p0 + (p1 - p0) * s;
-            let y = q0 + (q1 - q0) * t;
-            let d = x.distance_squared(y);
-            if d < best {
-                best = d;
-                on_segment = x;
-                on_triangle = y;
+        let (s, t) = segment::closest_parameters_of_four(p1 - p0, &along, &r0);
+        let gap = r0.add(&d.scaled(s)).sub(&along.scaled(t));
+        let squares = gap.dot(&gap).to_array();
+        let mut i = 0;
+        for other in 1..3 {
+            if squares[other] < squares[i] {
+                i = other;
             }
         }
-        for (p, h) in [(p0, h0), (p1, h1)] {
-            if h * h < best && self.covers(p) {
+        for (p, h, inside) in [(p0, h0, inside0), (p1, h1, inside1)] {
+            if h * h < squares[i] && covers(inside) {
                 return Closest {
                     distance: h.abs(),
-                    normal: if h >= 0.0 { self.normal } else { -self.normal },
-                    point: p - self.normal * h,
+                    normal: if h >= 0.0 { n } else { -n },
+                    point: p - n * h,
                     on_face: true,
                     surface: face,
                 };
             }
         }
-        let normal = direction_or(on_segment - on_triangle, face);
+        let (q0, q1) = match i {
+            0 => (self.a, self.b),
+            1 => (self.b, self.c),
+            _ => (self.c, self.a),
+        };
+        let on_triangle = q0 + (q1 - q0) * t.to_array()[i];
+        let offset = p0 + (p1 - p0) * s.to_array()[i] - on_triangle;
+        let normal = direction_or(offset, face);
         Closest {
-            distance: (on_segment - on_triangle).length(),
+            distance: offset.length(),
             normal,
             point: on_triangle,
             on_face: normal.dot(face) > 0.999_99,
             surface: face,
         }
+    }
+
+    /// Whether the segment `p0 p1` is farther than `distance` from the triangle for certain: on one
+    /// side of its plane, or outside of one of its edges. Cheap, and may miss.
+    pub fn is_beyond(&self, p0: Vec3, p1: Vec3, distance: f32) -> bool {
+        let n = self.normal;
+        let h0 = (p0 - self.a).dot(n);
+        let h1 = (p1 - self.a).dot(n);
+        if h0.min(h1) > distance || h0.max(h1) < -distance {
+            return true;
+        }
+        let (from, along) = self.edges();
+        let inward = Lanes::splat(n).cross(&along);
+        let most = inward
+            .dot(&Lanes::splat(p0).sub(&from))
+            .max(inward.dot(&Lanes::splat(p1).sub(&from)));
+        let outside = most.min(Vec4::ZERO);
+        (outside * outside)
+            .cmpgt(inward.dot(&inward) * (distance * distance))
+            .any()
     }
 
     /// Distance along `dir` at which a ray meets either side, at most `max`.
@@ -202,6 +237,30 @@ mod tests {
                 "{found:?} {least}"
             );
         }
+    }
+
+    #[test]
+    fn what_is_called_beyond_a_distance_is() {
+        let mut seed = 3u32;
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        let mut beyond = 0;
+        for _ in 0..2000 {
+            let mut v = || Vec3::new(next(), next(), next());
+            let (a, b, c, p0, p1) = (v(), v(), v(), v(), v());
+            let Some(triangle) = Triangle::new(a, b, c) else {
+                continue;
+            };
+            let distance = next().abs();
+            if triangle.is_beyond(p0, p1, distance) {
+                beyond += 1;
+                let found = triangle.closest_to_segment(p0, p1).distance;
+                assert!(found > distance - 1e-5, "{found} {distance}");
+            }
+        }
+        assert!(beyond > 200, "{beyond}");
     }
 
     #[test]

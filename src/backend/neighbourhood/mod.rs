@@ -140,6 +140,11 @@ pub(crate) struct Neighbourhood {
     pub moving: bool,
     /// Entities of the sensors that hold the request's probe point.
     pub volumes: Vec<Entity>,
+    /// How much nearer than at the start of the tick any piece can come by its own motion and by
+    /// its obstacle's thickness, metres.
+    pub slack: f32,
+    order: Vec<(f32, u32)>,
+    earlier: Vec<Obstacle>,
 }
 
 impl Neighbourhood {
@@ -150,6 +155,83 @@ impl Neighbourhood {
         self.queries = 0;
         self.moving = false;
         self.volumes.clear();
+        self.slack = 0.0;
+    }
+
+    /// An obstacle was set in motion: where it can get to was not known when pieces were collected.
+    pub fn note_pushed(&mut self) {
+        self.moving = true;
+        self.slack = f32::INFINITY;
+    }
+
+    /// Sets the obstacles aside before the place is looked at again, in a wider circle.
+    pub fn set_aside(&mut self) {
+        core::mem::swap(&mut self.obstacles, &mut self.earlier);
+    }
+
+    /// Carries over what was found out about the obstacles that were set aside: how they were pushed.
+    pub fn carry_over(&mut self) {
+        for old in &self.earlier {
+            if let Some(new) = self.obstacles.iter_mut().find(|o| o.entity == old.entity) {
+                new.motion = old.motion;
+                new.dynamics = old.dynamics;
+            }
+        }
+    }
+
+    /// The present index of an obstacle that was set aside.
+    pub fn index_now(&mut self, index: u32) -> u32 {
+        let old = &self.earlier[index as usize];
+        let known = self.obstacles.iter().position(|o| o.entity == old.entity);
+        let now = known.unwrap_or_else(|| {
+            self.obstacles.push(old.clone());
+            self.obstacles.len() - 1
+        });
+        now as u32
+    }
+
+    /// Puts the pieces in the order of their clearance. The order of the search tree depends on what
+    /// else there is in the world; geometry does not.
+    pub fn sort(&mut self) {
+        let pieces = &mut self.pieces;
+        self.order.clear();
+        self.order.extend(
+            pieces
+                .iter()
+                .zip(0..)
+                .map(|(piece, i)| (piece.clearance, i)),
+        );
+        self.order.sort_unstable_by(|(a, i), (b, j)| {
+            a.total_cmp(b).then_with(|| {
+                let (a, b) = (&pieces[*i as usize], &pieces[*j as usize]);
+                a.normal
+                    .x
+                    .total_cmp(&b.normal.x)
+                    .then(a.normal.y.total_cmp(&b.normal.y))
+                    .then(a.normal.z.total_cmp(&b.normal.z))
+                    .then(a.part.cmp(&b.part))
+            })
+        });
+        // Pieces are large: each is moved once, along the cycles of the permutation.
+        for start in 0..self.order.len() {
+            let mut at = start;
+            loop {
+                let from = self.order[at].1 as usize;
+                self.order[at].1 = at as u32;
+                if from == start || from == at {
+                    break;
+                }
+                pieces.swap(at, from);
+                at = from;
+            }
+        }
+    }
+
+    /// How many of the pieces, from the first on, can be within `range` of a mover that is
+    /// `distance` from where it started.
+    pub fn within(&self, range: f32, distance: f32) -> usize {
+        let most = range + distance + self.slack;
+        self.pieces.partition_point(|piece| piece.clearance <= most)
     }
 
     pub fn obstacle(&self, piece: &Piece) -> &Obstacle {

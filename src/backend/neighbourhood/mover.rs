@@ -149,6 +149,18 @@ impl Mover {
         })
     }
 
+    /// Whether a piece is farther than `distance` from the surface for certain. Cheap, and may miss.
+    pub fn is_beyond(&self, geometry: &Geometry, pose: &MoverPose, distance: f32) -> bool {
+        match (&self.core, geometry) {
+            (Core::Axis { low, high }, Geometry::Triangle(triangle)) => triangle.is_beyond(
+                pose.position + pose.up * *low,
+                pose.position + pose.up * *high,
+                distance + self.radius,
+            ),
+            _ => false,
+        }
+    }
+
     /// Distance from a piece, measured between the surfaces.
     pub fn separation(&self, geometry: &Geometry, pose: &MoverPose) -> Closest {
         let mut found = match &self.core {

@@ -124,7 +124,7 @@ impl Solver<'_> {
                 obstacle.motion.turn = turn;
             }
         }
-        self.near.moving = true;
+        self.near.note_pushed();
         self.impulses.push(Impulse {
             obstacle: touch.obstacle,
             body: entity,

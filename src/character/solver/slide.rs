@@ -245,8 +245,11 @@ impl Solver<'_> {
         }
         let aside = 1.0e-5 * length + ASIDE;
         let mut best = most;
-        for index in 0..self.near.pieces.len() {
-            if self.out_of_reach(index, p, length * best + HIT) {
+        let pose = self.pose.at(p);
+        let away = p.distance(self.pose.position) + 1.0e-5;
+        let count = self.near.within(length * best + HIT, away);
+        for index in 0..count {
+            if self.out_of_reach(index, &pose, length * best + HIT) {
                 continue;
             }
             if let Some(s) = self.advance(index, p, rest, t, best, aside) {

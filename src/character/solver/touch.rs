@@ -9,7 +9,7 @@ use bevy::prelude::*;
 
 use super::{LIP, Solver};
 use crate::{
-    backend::neighbourhood::{Geometry, ObstacleKind},
+    backend::neighbourhood::{Geometry, MoverPose, ObstacleKind},
     math::Closest,
 };
 
@@ -61,23 +61,28 @@ pub(in crate::character) enum Edge {
 }
 
 impl Solver<'_> {
-    /// Whether a piece at rest is farther than `range` from the mover at `p` for certain.
-    pub fn out_of_reach(&self, index: usize, p: Vec3, range: f32) -> bool {
+    /// Whether a piece at rest is farther than `range` from the mover at `pose` for certain.
+    pub fn out_of_reach(&self, index: usize, pose: &MoverPose, range: f32) -> bool {
         let piece = &self.near.pieces[index];
         let obstacle = self.near.obstacle(piece);
         if !obstacle.motion.is_none() {
             return false;
         }
-        let slack = piece.clearance - obstacle.skin - range;
-        slack > 0.0 && slack * slack > p.distance_squared(self.pose.position)
+        let range = range + obstacle.skin;
+        let slack = piece.clearance - range;
+        (slack > 0.0 && slack * slack > pose.position.distance_squared(self.pose.position))
+            || self.mover.is_beyond(&piece.geometry, pose, range)
     }
 
     /// Collects everything within `range` of the mover at `p`, at the fraction `t` of the tick.
     pub fn touch(&mut self, p: Vec3, t: f32, range: f32) {
         self.touches.clear();
         let pose = self.pose.at(p);
-        for index in 0..self.near.pieces.len() {
-            if self.out_of_reach(index, p, range) {
+        let count = self
+            .near
+            .within(range, p.distance(self.pose.position) + 1.0e-5);
+        for index in 0..count {
+            if self.out_of_reach(index, &pose, range) {
                 continue;
             }
             let found = self.near.separation(index, &self.mover, &pose, t);

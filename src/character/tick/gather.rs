@@ -4,14 +4,14 @@ use bevy::prelude::*;
 
 use super::Tick;
 use crate::{
-    backend::neighbourhood::{Mover, MoverPose, ObstacleKind, Request},
-    character::solver::Scratch,
+    backend::neighbourhood::{Mover, MoverPose, Neighbourhood, ObstacleKind, Request},
+    character::solver::Solver,
 };
 
 impl Tick<'_, '_, '_, '_> {
     pub(super) fn gather(
         &self,
-        scratch: &mut Scratch,
+        near: &mut Neighbourhood,
         mover: &Mover,
         pose: MoverPose,
         displacement: Vec3,
@@ -52,24 +52,33 @@ impl Tick<'_, '_, '_, '_> {
             around.groups,
             around.dt,
             |collider, body| around.judge(collider, body),
-            &mut scratch.near,
+            near,
         );
-        let near = &mut scratch.near;
-        // The order of the search tree depends on what else there is; geometry does not.
-        near.pieces.sort_unstable_by(|a, b| {
-            a.clearance
-                .total_cmp(&b.clearance)
-                .then(a.normal.x.total_cmp(&b.normal.x))
-                .then(a.normal.y.total_cmp(&b.normal.y))
-                .then(a.normal.z.total_cmp(&b.normal.z))
-                .then(a.part.cmp(&b.part))
-        });
-        self.share_gaps(scratch, displacement);
+        near.sort();
+        self.share_gaps(near, displacement);
+    }
+
+    /// Looks again as far as a step reaches, for a motion that was stopped in the near neighbourhood.
+    pub(super) fn look_wider(&self, solver: &mut Solver, displacement: Vec3, growth: f32) {
+        let queries = solver.near.queries;
+        let (mover, pose) = (&solver.mover, solver.pose);
+        solver.near.set_aside();
+        self.gather(solver.near, mover, pose, displacement, growth, true);
+        solver.near.carry_over();
+        solver.near.queries += queries;
+        for blocker in solver.blockers.iter_mut() {
+            blocker.obstacle = solver.near.index_now(blocker.obstacle);
+        }
+        for impulse in solver.impulses.iter_mut() {
+            impulse.obstacle = solver.near.index_now(impulse.obstacle);
+        }
+        if !solver.impulses.is_empty() {
+            solver.near.note_pushed();
+        }
     }
 
     /// Two characters that close on each other each get their share of the gap between them.
-    fn share_gaps(&self, scratch: &mut Scratch, displacement: Vec3) {
-        let near = &mut scratch.near;
+    fn share_gaps(&self, near: &mut Neighbourhood, displacement: Vec3) {
         for piece in &near.pieces {
             let obstacle = &mut near.obstacles[piece.obstacle as usize];
             if obstacle.kind != ObstacleKind::Character {
@@ -83,6 +92,7 @@ impl Tick<'_, '_, '_, '_> {
             let gap = piece.clearance - obstacle.skin;
             if mine > 0.0 && theirs > 0.0 && gap > 0.0 {
                 obstacle.skin += gap * theirs / (mine + theirs);
+                near.slack = near.slack.max(obstacle.skin);
             }
         }
     }

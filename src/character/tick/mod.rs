@@ -15,7 +15,7 @@ use super::{
     output::{CharacterContacts, StanceRefusal},
     platform::{self, Carry},
     report::{CharacterReport, Happened},
-    solver::{Growth, Scratch, Solver},
+    solver::{Bend, Growth, Scratch, Solver},
     state::{CharacterState, GroundState, MovementMode},
 };
 use crate::backend::{neighbourhood::MoverPose, world::WorldPose};
@@ -152,17 +152,8 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         let wanted = body::wanted_height(self.config, self.intent.stance);
         let growth = wanted.map_or(0.0, |height| (height - self.state.height).max(0.0));
 
-        self.gather(scratch, &mover, pose, displacement, growth, false);
+        self.gather(&mut scratch.near, &mover, pose, displacement, growth, false);
         let steps = grounded && walks && self.config.step.is_some();
-        let near = &scratch.near;
-        let wall_near = steps
-            && near.pieces.iter().any(|piece| {
-                piece.normal.dot(up) < 0.95
-                    && piece.clearance - near.obstacle(piece).skin < displacement.length() + 0.01
-            });
-        if wall_near {
-            self.gather(scratch, &mover, pose, displacement, growth, true);
-        }
 
         let mut solver = Solver::new(self.config, mover, pose, dt, scratch);
         solver.velocity = self.state.velocity;
@@ -178,11 +169,14 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
 
         // A step, if something was in the way of feet on the ground.
         let mut climbed = None;
-        if steps && !solver.blockers.is_empty() {
+        if steps && solver.blockers.iter().any(|b| b.bend != Bend::Ground) {
             let wish = solver.level(own);
             let missing = wish - solver.level(p - from - self.carry.displacement);
             // What was lost, not what was turned aside.
             let lost = missing.dot(wish) > 1.0e-5 * wish.length();
+            if lost {
+                self.look_wider(&mut solver, displacement, growth);
+            }
             if lost && let Some((q, height)) = solver.try_step(p, missing, self.state.velocity) {
                 climbed = Some(((q - p).dot(up), height));
                 p = q;
@@ -211,7 +205,11 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             support.state = GroundState::Unsupported;
         }
         if climbed.is_some() {
-            support.state = GroundState::OnGround;
+            if support.state != GroundState::OnGround {
+                // On the rim of a step, or beside something else: the step carries, and it is level.
+                support.state = GroundState::OnGround;
+                support.normal = up;
+            }
         } else if walks
             && support.distance > 2.0e-4
             && (grounded || support.state == GroundState::OnGround)

@@ -191,6 +191,7 @@ impl Tick<'_, '_, '_, '_> {
     /// Collects the impulses for bodies: pushes, and the weight on what carries.
     fn weigh(&mut self, solver: &Solver, support: &Support, was_on_ground: bool, origin: Vec3) {
         self.report.impulses.clear();
+        self.report.impulses.reserve(8);
         for i in solver.impulses.iter() {
             self.report.impulses.push(BodyImpulse {
                 body: i.body,
@@ -227,8 +228,12 @@ impl Tick<'_, '_, '_, '_> {
     fn note_contacts(&mut self, solver: &mut Solver, origin: Vec3) {
         let contacts = &mut self.contacts.contacts;
         contacts.clear();
+        // Room for more than a usual tick needs, so that later ticks need no memory.
+        contacts.reserve(24);
+        self.report.hits.reserve(8);
         core::mem::swap(&mut self.report.touching, &mut self.report.touched);
         self.report.touching.clear();
+        self.report.touching.reserve(8);
         for b in solver.blockers.iter() {
             let obstacle = &solver.near.obstacles[b.obstacle as usize];
             let impulse = solver
