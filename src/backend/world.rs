@@ -401,23 +401,23 @@ impl PhysicsWorldsMut<'_, '_> {
         }
     }
 
-    /// Tells a kinematic body where to be at the end of the tick. With `jump` it is there at once,
-    /// without sweeping aside what lies between.
-    pub fn move_body(
+    /// Puts a kinematic body where it is at the end of the tick, without a velocity: what it pushes
+    /// aside on the way was decided by its own solver, and must not be pushed again, with unlimited
+    /// force, by the physics step.
+    pub fn place_body(
         &mut self,
         link: &RapierContextEntityLink,
         handle: &RapierRigidBodyHandle,
-        position: Vec3,
-        rotation: Quat,
-        jump: Option<WorldPose>,
+        pose: WorldPose,
     ) {
         if let Ok((_, _, mut bodies)) = self.contexts.get_mut(link.0)
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
         {
-            if let Some(from) = jump {
-                body.set_position(Pose::from_parts(from.position, from.rotation), true);
+            let pose = Pose::from_parts(pose.position, pose.rotation);
+            if *body.position() != pose || *body.next_position() != pose {
+                body.set_position(pose, true);
+                body.set_next_kinematic_position(pose);
             }
-            body.set_next_kinematic_position(Pose::from_parts(position, rotation));
         }
     }
 

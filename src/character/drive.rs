@@ -179,13 +179,7 @@ pub(super) fn apply_effects(
         let report = report.bypass_change_detection();
         impulses.extend(report.impulses.drain(..).map(|i| (entity, *link, i)));
         if let Some(target) = report.target.take() {
-            worlds.move_body(
-                link,
-                handle,
-                target.position,
-                target.rotation,
-                report.jump.take(),
-            );
+            worlds.place_body(link, handle, target);
         }
     }
     // Stable: one character's impulses keep the order in which it met the bodies.

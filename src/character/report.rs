@@ -24,8 +24,6 @@ pub(crate) struct CharacterReport {
     pub placed: bool,
     /// Where to be at the end of the tick.
     pub target: Option<WorldPose>,
-    /// Where it was put by the game before the tick.
-    pub jump: Option<WorldPose>,
     pub impulses: Vec<BodyImpulse>,
     pub happened: Happened,
     pub hits: Vec<NewHit>,

@@ -200,6 +200,7 @@ impl Sink<'_, '_> {
                 part: self.part,
                 clearance,
                 normal: found.normal,
+                point: found.point,
             });
         }
     }

@@ -18,6 +18,8 @@ pub(crate) struct Piece {
     pub clearance: f32,
     /// From the piece to the mover at the start of the tick, unit length.
     pub normal: Vec3,
+    /// The piece's point nearest to the mover at the start of the tick.
+    pub point: Vec3,
 }
 
 /// The shapes with closed forms, and the rest.

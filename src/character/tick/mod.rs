@@ -104,7 +104,6 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         report.solved = true;
         report.happened = Happened::default();
         report.hits.clear();
-        report.jump = placed.then_some(asked);
         report.placed = placed;
         let state = &mut **state;
         if !report.woken {
