@@ -97,6 +97,8 @@ pub(crate) struct Carrier {
     pub now: WorldPose,
     /// Its pose at the end of the tick.
     pub end: WorldPose,
+    /// Mass of its body, kilograms; infinite when it moves as it wills.
+    pub mass: f32,
 }
 
 impl<'a> PhysicsView<'a> {
@@ -125,6 +127,9 @@ impl<'a> PhysicsView<'a> {
         Some(Carrier {
             now: now.into(),
             end: (&end).into(),
+            mass: body
+                .filter(|b| b.is_dynamic())
+                .map_or(f32::INFINITY, RigidBody::mass),
         })
     }
 

@@ -83,11 +83,14 @@ impl Plugin for CharacterPlugin {
                     )
                         .chain()
                         .in_set(EmbodySystems::Drive),
-                    (drive::end_forces, react::trigger_events)
-                        .chain()
-                        .in_set(EmbodySystems::React),
+                    react::trigger_events.in_set(EmbodySystems::React),
                 )
                     .run_if(any_with_component::<Character>),
+            )
+            // Also when the last character is gone; and before the game's own forces are taken over.
+            .add_systems(
+                FixedPostUpdate,
+                drive::end_forces.in_set(EmbodySystems::Prepare),
             );
     }
 }

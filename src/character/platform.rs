@@ -16,6 +16,9 @@ use super::{
 };
 use crate::backend::world::{Carrier, WorldPose};
 
+/// Acceleration that friction gives to a rider at most, metres per second squared.
+const GRIP: f32 = 10.0;
+
 /// What the ground does to its rider in a tick.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Carry {
@@ -35,6 +38,7 @@ pub(super) fn carry(
     surface: SurfaceVelocity,
     position: Vec3,
     state: &CharacterState,
+    mass: f32,
     dt: f32,
 ) -> Carry {
     let Some(carrier) = carrier else {
@@ -73,8 +77,19 @@ pub(super) fn carry(
             (rotation * surface.linear).as_dvec3() * f64::from(dt) + (around * arm - arm);
         turn += twist(around, state.up);
     }
+    let mut displacement = displacement.as_vec3();
+    if carrier.mass < mass {
+        // A pebble that spins away under a foot does not take the walker with it: what is lighter
+        // than its rider changes his motion no faster than friction does.
+        let change = displacement / dt - state.platform_velocity;
+        let most = GRIP * dt;
+        if change.length() > most {
+            displacement = (state.platform_velocity + change.clamp_length_max(most)) * dt;
+            turn = 0.0;
+        }
+    }
     Carry {
-        displacement: displacement.as_vec3(),
+        displacement,
         turn,
         moving: true,
         lost: false,
@@ -128,11 +143,16 @@ mod tests {
             rotation = Quat::from_rotation_y(step * i as f32);
             let end = WorldPose { rotation, ..now };
             let found = carry(
-                Some(Carrier { now, end }),
+                Some(Carrier {
+                    now,
+                    end,
+                    mass: f32::INFINITY,
+                }),
                 &anchor,
                 SurfaceVelocity::default(),
                 foot,
                 &state,
+                70.0,
                 1.0 / 60.0,
             );
             assert!((found.turn - step).abs() < 1e-4);

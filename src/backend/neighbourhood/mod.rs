@@ -209,6 +209,9 @@ impl Neighbourhood {
                     .total_cmp(&b.normal.x)
                     .then(a.normal.y.total_cmp(&b.normal.y))
                     .then(a.normal.z.total_cmp(&b.normal.z))
+                    .then(a.point.x.total_cmp(&b.point.x))
+                    .then(a.point.y.total_cmp(&b.point.y))
+                    .then(a.point.z.total_cmp(&b.point.z))
                     .then(a.part.cmp(&b.part))
             })
         });

@@ -76,6 +76,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
                 around.surface_velocity(anchor.entity),
                 start.position,
                 state,
+                config.mass,
                 around.dt,
             ),
             _ => Carry::default(),

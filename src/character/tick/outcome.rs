@@ -52,10 +52,17 @@ impl Tick<'_, '_, '_, '_> {
         self.state.velocity = velocity;
         if on_ground {
             let same = was_on_ground && self.state.ground.entity == ground.entity;
-            let platform = if same { carried } else { ground.velocity };
+            let platform = if same {
+                carried
+            } else if stands_on_lighter(solver, &support) {
+                // It takes the rider along by friction only, from the next tick on.
+                Vec3::ZERO
+            } else {
+                ground.velocity
+            };
             if !same {
                 self.state.velocity += if was_on_ground { carried } else { Vec3::ZERO };
-                self.state.velocity -= ground.velocity;
+                self.state.velocity -= platform;
             }
             let level = self.state.velocity - up * self.state.velocity.dot(up);
             let length = if same || was_on_ground {
@@ -299,4 +306,12 @@ pub(super) fn support_velocity(solver: &Solver, support: &Support, dt: f32) -> V
             .velocity(support.point, 1.0)
             / dt
     })
+}
+
+/// Whether the ground is a body lighter than who stands on it.
+fn stands_on_lighter(solver: &Solver, support: &Support) -> bool {
+    support
+        .obstacle
+        .and_then(|index| solver.near.obstacles[index as usize].dynamics)
+        .is_some_and(|body| body.inverse_mass.max_element() * solver.config.mass > 1.0)
 }
