@@ -20,6 +20,8 @@ use crate::{
 
 /// A step is tried against what opposes the motion by at least this cosine (75°).
 const FACING: f32 = 0.26;
+/// Most obstacles that are tried as a riser in one tick.
+const TRIES: u32 = 3;
 /// Least part of the missing motion that a step must achieve.
 const PROGRESS: f32 = 0.05;
 /// How far behind the riser the first look is, metres.
@@ -44,28 +46,37 @@ impl Solver<'_> {
             return None;
         }
         let forward = missing / distance;
-        let (direction, point) = self
-            .blockers
-            .iter()
-            .filter(|b| b.bend != Bend::Ground && b.normal.dot(self.up) > -0.1)
-            .filter_map(|b| {
-                let level = self.level(-b.normal).try_normalize()?;
-                Some((level.dot(forward), level, b.point))
-            })
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .filter(|(facing, ..)| *facing >= FACING)
-            .map(|(_, level, point)| (level, point))?;
-        let result = self.climb(p, missing, velocity, direction, point, step);
-        let (landed, answer) = match result {
-            Ok((q, height, rise)) => (Some((q, height)), StepResult::Climbed(rise)),
-            Err(refusal) => (None, refusal),
-        };
-        self.step = Some(StepAttempt {
-            point,
-            direction,
-            result: answer,
-        });
-        landed
+        // Beside a wall the riser is not always what opposes the motion most: each is tried in turn.
+        let mut tried = f32::INFINITY;
+        for _ in 0..TRIES {
+            let (facing, direction, point) = self
+                .blockers
+                .iter()
+                .filter(|b| b.bend != Bend::Ground && b.normal.dot(self.up) > -0.1)
+                .filter_map(|b| {
+                    let level = self.level(-b.normal).try_normalize()?;
+                    Some((level.dot(forward), level, b.point))
+                })
+                .filter(|(facing, ..)| *facing >= FACING && *facing < tried - 1.0e-4)
+                .max_by(|a, b| a.0.total_cmp(&b.0))?;
+            tried = facing;
+            let result = self.climb(p, missing, velocity, direction, point, step);
+            let (landed, answer) = match result {
+                Ok((q, height, rise)) => (Some((q, height)), StepResult::Climbed(rise)),
+                Err(refusal) => (None, refusal),
+            };
+            if landed.is_some() || self.step.is_none() {
+                self.step = Some(StepAttempt {
+                    point,
+                    direction,
+                    result: answer,
+                });
+            }
+            if landed.is_some() {
+                return landed;
+            }
+        }
+        None
     }
 
     fn climb(

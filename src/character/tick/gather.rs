@@ -27,7 +27,7 @@ impl Tick<'_, '_, '_, '_> {
             0.0
         };
         let above = growth + if wide { step + 0.05 } else { 0.0 };
-        let margin = 0.05 + if wide { mover.width + min_width } else { 0.0 };
+        let margin = 0.05 + self.push + if wide { mover.width + min_width } else { 0.0 };
         let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
         let foot = pose.position - up * below;
         let head = pose.position + up * (2.0 * mover.middle + above);
@@ -35,8 +35,8 @@ impl Tick<'_, '_, '_, '_> {
             low = low.min(p);
             high = high.max(p);
         }
-        let grow =
-            Vec3::splat(mover.width + margin) * (Vec3::ONE - up.abs() * 0.9) + up.abs() * 0.05;
+        let grow = Vec3::splat(mover.width + margin) * (Vec3::ONE - up.abs() * 0.9)
+            + up.abs() * (0.05 + self.push);
         let request = Request {
             mover,
             pose,
@@ -56,6 +56,32 @@ impl Tick<'_, '_, '_, '_> {
         );
         near.sort();
         self.share_gaps(near, displacement);
+    }
+
+    /// How far anything that moves, other than what carries, could push the character this tick.
+    pub(super) fn push_ahead(
+        &self,
+        near: &Neighbourhood,
+        mover: &Mover,
+        pose: MoverPose,
+        displacement: Vec3,
+    ) -> f32 {
+        if !near.moving {
+            return 0.0;
+        }
+        let carrier = self.state.anchor.map(|anchor| anchor.entity);
+        let mut push = 0.0f32;
+        for piece in &near.pieces {
+            let obstacle = near.obstacle(piece);
+            if obstacle.motion.is_none() || Some(obstacle.entity) == carrier {
+                continue;
+            }
+            let way = obstacle.motion.reach(pose.position, 2.0 * mover.reach);
+            if piece.clearance < way + displacement.length() {
+                push = push.max(way);
+            }
+        }
+        push
     }
 
     /// Looks again as far as a step reaches, for a motion that was stopped in the near neighbourhood.

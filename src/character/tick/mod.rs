@@ -40,6 +40,8 @@ pub(super) struct Tick<'a, 'b, 'w, 's> {
     report: &'a mut CharacterReport,
     start: WorldPose,
     carry: Carry,
+    /// How far something that moves could push it aside in the tick, metres.
+    push: f32,
 }
 
 impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
@@ -124,6 +126,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             report,
             start,
             carry,
+            push: 0.0,
         })
     }
 
@@ -153,6 +156,10 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         let growth = wanted.map_or(0.0, |height| (height - self.state.height).max(0.0));
 
         self.gather(&mut scratch.near, &mover, pose, displacement, growth, false);
+        self.push = self.push_ahead(&scratch.near, &mover, pose, displacement);
+        if self.push > 0.0 {
+            self.gather(&mut scratch.near, &mover, pose, displacement, growth, false);
+        }
         let steps = grounded && walks && self.config.step.is_some();
 
         let mut solver = Solver::new(self.config, mover, pose, dt, scratch);
