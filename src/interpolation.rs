@@ -14,7 +14,7 @@
 //! app.add_plugins(EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>());
 //! ```
 //!
-//! A jump is not drawn as a motion; [`Teleported`](crate::Teleported) says what counts as one. A
+//! A jump is not drawn as a motion; [`Teleported`] says what counts as one. A
 //! rotation written outside the fixed schedules, as by a mouse, is shown at once and leaves the
 //! translation smooth.
 //!
