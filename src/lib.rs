@@ -8,6 +8,7 @@ pub mod debug;
 #[cfg(feature = "character")]
 mod diagnostics;
 pub mod interpolation;
+#[cfg(feature = "character")]
 mod math;
 mod schedule;
 mod teleport;
