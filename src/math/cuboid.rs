@@ -7,7 +7,7 @@
 
 use bevy::math::{Quat, Vec3};
 
-use super::Closest;
+use super::{Closest, RAY_SLACK};
 
 /// A box with a pose.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,8 @@ impl Cuboid {
             }
             return Closest {
                 distance,
-                normal: self.rotation * normal,
+                // On one face only: its exact normal, not one tilted by rounding.
+                normal: self.rotation * if faces == 1 { surface } else { normal },
                 point: self.center + self.rotation * (x - e),
                 on_face: faces == 1,
                 surface: self.rotation * surface,
@@ -98,14 +99,17 @@ impl Cuboid {
         let mut leave = f32::MAX;
         let mut normal = Vec3::ZERO;
         for axis in 0..3 {
+            // No ray slips between two boxes that stand side by side.
+            let aside = d[axis].abs() < 0.5;
+            let half = self.half[axis] + if aside { RAY_SLACK } else { 0.0 };
             if d[axis].abs() < 1.0e-9 {
-                if o[axis].abs() > self.half[axis] {
+                if o[axis].abs() > half {
                     return None;
                 }
                 continue;
             }
-            let near = (-self.half[axis] * d[axis].signum() - o[axis]) / d[axis];
-            let far = (self.half[axis] * d[axis].signum() - o[axis]) / d[axis];
+            let near = (-half * d[axis].signum() - o[axis]) / d[axis];
+            let far = (half * d[axis].signum() - o[axis]) / d[axis];
             if near > enter {
                 enter = near;
                 normal = Vec3::AXES[axis] * -d[axis].signum();

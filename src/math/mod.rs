@@ -8,6 +8,9 @@ pub(crate) mod triangle;
 
 use bevy::math::Vec3;
 
+/// How far beside an edge a ray still hits, metres.
+pub(crate) const RAY_SLACK: f32 = 1.0e-4;
+
 /// The closest pair of a segment and a solid, as seen from the segment.
 ///
 /// `distance` is measured from the segment itself, so it keeps its direction however deep a

@@ -7,7 +7,7 @@
 
 use bevy::math::{Vec3, Vec4};
 
-use super::{Closest, direction_or, lanes::Lanes, segment};
+use super::{Closest, RAY_SLACK, direction_or, lanes::Lanes, segment};
 
 /// A triangle with its unit normal.
 #[derive(Clone, Copy, Debug)]
@@ -37,14 +37,6 @@ impl Triangle {
             c,
             normal: cross / length,
         })
-    }
-
-    /// Whether the projection of `p` along the normal falls inside.
-    pub fn covers(&self, p: Vec3) -> bool {
-        let n = self.normal;
-        (self.b - self.a).cross(p - self.a).dot(n) >= 0.0
-            && (self.c - self.b).cross(p - self.b).dot(n) >= 0.0
-            && (self.a - self.c).cross(p - self.c).dot(n) >= 0.0
     }
 
     /// The edges, one to a lane; the fourth lane repeats the third.
@@ -132,11 +124,13 @@ impl Triangle {
         let on_triangle = q0 + (q1 - q0) * t.to_array()[i];
         let offset = p0 + (p1 - p0) * s.to_array()[i] - on_triangle;
         let normal = direction_or(offset, face);
+        // Just outside of an edge it is the face still: its exact normal, not one tilted by rounding.
+        let on_face = normal.dot(face) > 0.999_99;
         Closest {
             distance: offset.length(),
-            normal,
+            normal: if on_face { face } else { normal },
             point: on_triangle,
-            on_face: normal.dot(face) > 0.999_99,
+            on_face,
             surface: face,
         }
     }
@@ -161,14 +155,27 @@ impl Triangle {
             .any()
     }
 
-    /// Distance along `dir` at which a ray meets either side, at most `max`.
+    /// Distance along `dir` at which a ray meets either side, at most `max`. Edges are wider than
+    /// they are by a tenth of a millimetre, so that no ray slips between two triangles.
     pub fn cast_ray(&self, origin: Vec3, dir: Vec3, max: f32) -> Option<f32> {
         let approach = self.normal.dot(dir);
         if approach.abs() < 1.0e-8 {
             return None;
         }
         let t = (self.a - origin).dot(self.normal) / approach;
-        (t >= 0.0 && t <= max && self.covers(origin + dir * t)).then_some(t)
+        if !(t >= 0.0 && t <= max) {
+            return None;
+        }
+        let p = origin + dir * t;
+        let (from, along) = self.edges();
+        let inside = Lanes::splat(self.normal)
+            .cross(&along)
+            .dot(&Lanes::splat(p).sub(&from));
+        let outside = inside.min(Vec4::ZERO);
+        (outside * outside)
+            .cmple(along.dot(&along) * (RAY_SLACK * RAY_SLACK))
+            .all()
+            .then_some(t)
     }
 }
 

@@ -42,7 +42,7 @@ const TOUCH: f32 = 1.0e-4;
 /// A sweep ends when it is this close, metres.
 const HIT: f32 = 2.0e-5;
 /// Edges that stand out of a touched face by less than this are part of it, metres.
-const LIP: f32 = 1.0e-3;
+const LIP: f32 = 8.0e-4;
 /// Ground within this distance carries, metres.
 const SUPPORT: f32 = 2.0e-3;
 /// Slack on the slope limit, so that a ramp at the limit is not a matter of rounding, radians.

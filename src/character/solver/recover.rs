@@ -20,12 +20,14 @@ impl Solver<'_> {
         if !inside {
             return p;
         }
-        self.touch(p, 0.0, -TOUCH);
+        self.touch(p, 0.0, TOUCH);
         let most = self.config.recovery_speed * self.dt;
         self.planes.clear();
         for touch in self.touches.iter() {
             let obstacle = &self.near.obstacles[touch.obstacle as usize];
-            if obstacle.kind == ObstacleKind::Dynamic && !self.config.pushed_by_bodies {
+            if touch.distance > -TOUCH
+                || (obstacle.kind == ObstacleKind::Dynamic && !self.config.pushed_by_bodies)
+            {
                 continue;
             }
             let depth = -touch.distance - 0.5 * TOUCH;

@@ -18,7 +18,7 @@ impl Solver<'_> {
     /// upwards covers what it would sweep on its way up.
     pub fn room_to_grow(&mut self, p: Vec3, height: f32, by: f32) -> Growth {
         let lift = self.up * by;
-        self.touches.clear();
+        self.touch(p, 1.0, TOUCH);
         let mut s = self.sweep(p, lift, 1.0, 1.0);
         // Touching a wall from the side is no obstacle; being under something is.
         if s >= 1.0 {

@@ -9,7 +9,7 @@
 
 use bevy::prelude::*;
 
-use super::{Solver, touch::Bend};
+use super::{Solver, TOUCH, touch::Bend};
 use crate::{
     backend::neighbourhood::ObstacleKind,
     character::{
@@ -94,7 +94,8 @@ impl Solver<'_> {
             return Err(StepResult::Dynamic);
         }
         let up = self.up * (landing.height + 0.01);
-        self.touches.clear();
+        // What is touched tells which edges on the way are part of a face.
+        self.touch(p, 1.0, TOUCH);
         let lifted = up * self.sweep(p, up, 1.0, 1.0);
         if lifted.dot(self.up) < 1.0e-3 {
             return Err(StepResult::NoRoom);
@@ -110,7 +111,7 @@ impl Solver<'_> {
         if progress < PROGRESS {
             return Err(StepResult::NoRoom);
         }
-        self.touches.clear();
+        self.touch(q, 1.0, TOUCH);
         let down = -(lifted + self.up * 2.0e-3);
         let s = self.sweep(q, down, 1.0, 1.0);
         if s >= 1.0 {

@@ -13,6 +13,9 @@ use crate::{
     math::Closest,
 };
 
+/// Cosines that differ by less are equal.
+const ROUNDING: f32 = 1.0e-6;
+
 /// How a contact bends a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bend {
@@ -186,7 +189,7 @@ fn edge_beside(faces: &[Touch], edge: &Touch) -> Edge {
             return Edge::Ghost;
         }
         // Of the two directions that the edge's piece offers, the one nearer to the face.
-        if edge.surface.dot(face.normal) >= edge.normal.dot(face.normal) {
+        if edge.surface.dot(face.normal) >= edge.normal.dot(face.normal) - ROUNDING {
             return Edge::Face(edge.surface);
         }
     }

@@ -122,13 +122,11 @@ fn stairs_of_boxes_are_walked_up_and_down_alike_at_every_rate() {
 }
 
 #[test]
-#[ignore = "open defect: 0.3/0.3 at 60 Hz is 5.4 % slower than at 30 Hz"]
 fn stairs_of_one_mesh_are_walked_up_and_down_alike_at_every_rate() {
     sizes(Make::Mesh, None, "open");
 }
 
 #[test]
-#[ignore = "open defect: 0.3/0.3 at 60 Hz is 5.4 % slower than at 30 Hz"]
 fn stairs_under_a_ceiling_just_above_the_head_are_walked_alike() {
     // A quarter of a metre is left above the head on the step that is climbed to.
     let ceiling = StairCeiling {
@@ -161,7 +159,6 @@ fn low_stairs_under_a_ceiling_lower_than_the_step_height_are_walked_alike() {
 }
 
 #[test]
-#[ignore = "open defect: stuck on mesh stairs at 60 Hz"]
 fn stairs_are_climbed_while_hugging_a_side_wall() {
     let mut found = Findings::new();
     for hz in RATES {

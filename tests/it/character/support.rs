@@ -194,9 +194,10 @@ pub fn depth_in(sim: &Sim, character: Entity, other: Entity) -> f32 {
     let (pose, capsule) = capsule_of(sim, character);
     let (transform, collider) = (sim.get::<Transform>(other), sim.get::<Collider>(other));
     let other = Pose::from_parts(transform.translation, transform.rotation);
-    match parry::query::contact(&pose, &capsule, &other, &*collider.raw, 0.5) {
-        Ok(Some(contact)) => -contact.dist,
-        Ok(None) => -0.5,
+    // From the capsule's axis: parry's contact of a whole capsule may tell centimetres of depth where
+    // only the vertex of a triangle touches, while its distance between separate shapes does not err.
+    match parry::query::distance(&pose, &capsule.segment, &other, &*collider.raw) {
+        Ok(apart) => (capsule.radius - apart).max(-0.5),
         Err(error) => panic!("depth: {error}"),
     }
 }
