@@ -7,8 +7,10 @@ use bevy::prelude::*;
 /// Edge of a cell, metres.
 const CELL: f32 = 4.0;
 const WORDS: usize = 1024;
-/// An area over more cells than this is kept as it is.
-const MOST_CELLS: i64 = 64;
+/// An area of more cells than this along an axis, or with a corner farther out than this many
+/// cells, is kept as it is.
+const MOST_CELLS: f32 = 6.0;
+const FARTHEST: f32 = 1.0e9;
 
 /// The areas in which something moves.
 #[derive(Resource)]
@@ -43,11 +45,11 @@ impl Activity {
             return;
         }
         self.any = true;
-        let (a, b) = (cell(low), cell(high));
-        if (0..3).map(|i| b[i] - a[i] + 1).product::<i64>() > MOST_CELLS {
+        if covers_many(low, high) {
             self.large.push((low, high));
             return;
         }
+        let (a, b) = (cell(low), cell(high));
         for x in a[0]..=b[0] {
             for y in a[1]..=b[1] {
                 for z in a[2]..=b[2] {
@@ -63,10 +65,10 @@ impl Activity {
         if !self.any {
             return false;
         }
-        let (a, b) = (cell(low), cell(high));
-        if (0..3).map(|i| b[i] - a[i] + 1).product::<i64>() > MOST_CELLS {
+        if covers_many(low, high) {
             return true;
         }
+        let (a, b) = (cell(low), cell(high));
         for x in a[0]..=b[0] {
             for y in a[1]..=b[1] {
                 for z in a[2]..=b[2] {
@@ -81,6 +83,13 @@ impl Activity {
             .iter()
             .any(|(l, h)| l.cmple(high).all() && low.cmple(*h).all())
     }
+}
+
+/// Whether a box is too large, or too far out, to be told apart by cells. Decided in floats: a
+/// half-space is as large as they go.
+fn covers_many(low: Vec3, high: Vec3) -> bool {
+    // Written so that what is not a number is large.
+    !((high - low).max_element() <= CELL * MOST_CELLS && low.abs().max_element() <= CELL * FARTHEST)
 }
 
 fn cell(p: Vec3) -> [i64; 3] {
@@ -113,6 +122,20 @@ mod tests {
         activity.mark(Vec3::splat(-1.0e6), Vec3::splat(1.0e6));
         assert!(activity.near(Vec3::splat(5.0e5), Vec3::splat(5.0e5)));
         activity.clear();
+        assert!(!activity.near(Vec3::ZERO, Vec3::ONE));
+    }
+
+    #[test]
+    fn the_box_of_a_half_space_is_near_everywhere() {
+        let all = Vec3::splat(f32::MAX * 0.5);
+        let mut activity = Activity::default();
+        activity.mark(-all, all);
+        for at in [0.0, 1.0e6, 1.0e30] {
+            assert!(activity.near(Vec3::splat(at), Vec3::splat(at + 1.0)));
+        }
+        assert!(activity.near(-all, all));
+        activity.clear();
+        activity.mark(Vec3::splat(1.0e25), Vec3::splat(1.0e25));
         assert!(!activity.near(Vec3::ZERO, Vec3::ONE));
     }
 }

@@ -102,9 +102,13 @@ pub(crate) struct Carrier {
 }
 
 impl<'a> PhysicsView<'a> {
-    /// The pose of a body now and the one it was told to take.
+    /// The pose of a body now and the one it was told to take; none of a disabled one.
     pub fn body_pose(&self, handle: &RapierRigidBodyHandle) -> Option<(WorldPose, WorldPose)> {
-        let body = self.bodies.bodies.get(handle.0)?;
+        let body = self
+            .bodies
+            .bodies
+            .get(handle.0)
+            .filter(|b| b.is_enabled())?;
         Some((body.position().into(), body.next_position().into()))
     }
 
@@ -131,6 +135,25 @@ impl<'a> PhysicsView<'a> {
                 .filter(|b| b.is_dynamic())
                 .map_or(f32::INFINITY, RigidBody::mass),
         })
+    }
+
+    /// Mean velocity over the tick of a point that goes with a collider, sensors included, metres
+    /// per second.
+    pub fn point_velocity(&self, entity: Entity, point: Vec3, dt: f32) -> Vec3 {
+        let end = self
+            .colliders
+            .entity2collider()
+            .get(&entity)
+            .and_then(|handle| self.colliders.colliders.get(*handle)?.parent())
+            .and_then(|handle| self.bodies.bodies.get(handle))
+            .and_then(|body| Some((body.position(), end_of_tick(body, dt)?)));
+        let Some((now, end)) = end else {
+            return Vec3::ZERO;
+        };
+        // Relative to the body first, so that a far origin costs no digits.
+        let arm = point - now.translation;
+        let turned = end.rotation * (now.rotation.inverse() * arm);
+        (end.translation - now.translation + (turned - arm)) / dt
     }
 
     /// Collects what is near. `judge` is asked about every collider by its entity and its body's.

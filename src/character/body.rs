@@ -7,6 +7,8 @@ use super::{
     config::{Character, CharacterShape},
     intent::Stance,
     motor::CharacterMotor,
+    output::{CharacterContacts, CharacterSnapshot},
+    report::CharacterReport,
     state::CharacterState,
     validate::{self, Problem},
 };
@@ -22,13 +24,33 @@ pub(crate) struct CharacterBody {
     pub mover: Option<Mover>,
     /// Height of the mover, metres.
     pub height: f32,
-    /// Height of the collider, metres.
+    /// The shape that it was built from.
+    shape: Option<CharacterShape>,
+    /// Whether that shape spans no volume.
+    flat: bool,
+    /// Height of the collider, metres; 0 when it is to be built anew.
     collider_height: f32,
     owns_collider: bool,
+    /// The refused value of the character and of its motor.
+    told: [Option<Problem>; 2],
     /// Which filter components were there in the last tick.
     pub filters: u8,
     /// Whether a bad transform or intent was reported, so that it is reported once.
     pub warned: bool,
+}
+
+impl CharacterBody {
+    /// Remembers what is refused of the character (0) or its motor (1), and tells it once.
+    fn tell(&mut self, entity: Entity, of: usize, problem: Option<Problem>) {
+        if let Some(Problem { field, value, need }) = &problem
+            && self.told[of] != problem
+        {
+            warn_bad(entity, field, value, need);
+        }
+        if self.told[of] != problem {
+            self.told[of] = problem;
+        }
+    }
 }
 
 /// How much thicker than its collider a character is, metres.
@@ -49,7 +71,8 @@ pub(super) fn wanted_height(config: &Character, stance: Stance) -> Option<f32> {
         Stance::Height(height) if height.is_finite() && height > 0.0 => height,
         Stance::Height(_) => return None,
     };
-    Some(height.clamp(least, full))
+    // A capsule may be lower than its two radii by a rounding.
+    Some(height.clamp(least.min(full), full))
 }
 
 /// The mover of a shape at this height.
@@ -67,41 +90,60 @@ pub(super) fn mover(shape: &CharacterShape, height: f32) -> Option<Mover> {
 }
 
 /// Builds what is new and rebuilds what changed, before the physics world takes over the changes.
+///
+/// Whoever restores a state from before a change of height gets the height of that state, and only
+/// a shape or height that is another one is built anew.
 pub(super) fn build_bodies(
-    mut commands: Commands,
     mut characters: Query<
         (
             Entity,
-            &Character,
-            &CharacterMotor,
+            Ref<Character>,
+            Ref<CharacterMotor>,
             &mut CharacterState,
             &mut CharacterBody,
-            Option<&Collider>,
         ),
         Or<(
             Changed<Character>,
             Changed<CharacterMotor>,
+            Changed<CharacterState>,
             Added<CharacterBody>,
         )>,
     >,
 ) {
-    for (entity, config, motor, mut state, mut body, collider) in &mut characters {
-        let problems = [validate::character(config), validate::motor(motor)];
-        for Problem { field, value, need } in problems.iter().flatten() {
-            warn_bad(entity, field, value, need);
+    for (entity, config, motor, mut state, mut body) in &mut characters {
+        let fresh = body.is_added();
+        if fresh || config.is_changed() {
+            let problem = validate::character(&config);
+            body.tell(entity, 0, problem);
         }
-        let first = state.height <= 0.0;
+        if fresh || motor.is_changed() {
+            let problem = validate::motor(&motor);
+            body.tell(entity, 1, problem);
+        }
+        if body.told.iter().any(Option::is_some) {
+            if body.mover.is_some() {
+                body.mover = None;
+            }
+            continue;
+        }
         let standing = config.shape.height();
+        let first = !(state.height > 0.0);
         let height = if first {
             standing
         } else {
             state.height.min(standing)
         };
-        body.mover = if problems.iter().any(Option::is_some) {
-            None
+        let same_shape = if fresh || config.is_changed() {
+            body.shape.as_ref() == Some(&config.shape)
         } else {
+            body.shape.is_some()
+        };
+        // A hull that spans no volume is tried again only when it is another one.
+        let built = same_shape && body.height == height;
+        if !(built && body.mover.is_some() || same_shape && body.flat) {
             let mover = mover(&config.shape, height);
-            if mover.is_none() {
+            let flat = mover.is_none();
+            if flat {
                 warn_bad(
                     entity,
                     "Character::shape",
@@ -109,36 +151,75 @@ pub(super) fn build_bodies(
                     "points that span a volume",
                 );
             }
-            mover
-        };
-        if body.mover.is_none() {
-            continue;
-        }
-        if first {
-            state.height = height;
-        }
-        body.height = height;
-        if body.owns_collider || collider.is_none() {
-            body.owns_collider = true;
-            body.collider_height = height;
-            if let Some(collider) = shrunk(config, height) {
-                commands.entity(entity).insert(collider);
+            if !same_shape {
+                body.shape = Some(config.shape.clone());
+                body.collider_height = 0.0;
             }
+            body.mover = mover;
+            body.flat = flat;
+            body.height = height;
+        }
+        if first && body.mover.is_some() {
+            state.height = height;
         }
     }
 }
 
-/// Gives the physics world the new outline of characters whose height changed.
+/// Gives the physics world the outline of characters whose shape or height changed.
 pub(super) fn resize_colliders(
-    mut characters: Query<(&Character, &mut CharacterBody, &mut Collider), Changed<CharacterBody>>,
+    mut commands: Commands,
+    mut characters: Query<
+        (
+            Entity,
+            &Character,
+            &mut CharacterBody,
+            Option<&mut Collider>,
+        ),
+        Changed<CharacterBody>,
+    >,
 ) {
-    for (config, mut body, mut collider) in &mut characters {
-        if body.owns_collider && body.mover.is_some() && body.collider_height != body.height {
-            body.collider_height = body.height;
-            if let Some(new) = shrunk(config, body.height) {
-                *collider = new;
-            }
+    for (entity, config, mut body, collider) in &mut characters {
+        if body.mover.is_none() || body.collider_height == body.height {
+            continue;
         }
+        let body = body.bypass_change_detection();
+        body.owns_collider |= collider.is_none();
+        if !body.owns_collider {
+            continue;
+        }
+        body.collider_height = body.height;
+        match (collider, shrunk(config, body.height)) {
+            (Some(mut collider), Some(new)) => *collider = new,
+            (None, Some(new)) => {
+                commands.entity(entity).insert(new);
+            }
+            (_, None) => {}
+        }
+    }
+}
+
+/// Takes away what made a character of an entity that is none any more. Its
+/// [`CharacterState`] stays, for who takes over, and so do its rigid body and a collider of the
+/// game's own.
+pub(super) fn unmake(
+    removed: On<Remove, Character>,
+    mut commands: Commands,
+    bodies: Query<&CharacterBody>,
+) {
+    let Ok(mut entity) = commands.get_entity(removed.entity) else {
+        return;
+    };
+    entity.try_remove::<(
+        CharacterBody,
+        CharacterReport,
+        CharacterSnapshot,
+        CharacterContacts,
+    )>();
+    if bodies
+        .get(removed.entity)
+        .is_ok_and(|body| body.owns_collider)
+    {
+        entity.try_remove::<Collider>();
     }
 }
 

@@ -19,8 +19,11 @@ use super::{
     report::{BodyImpulse, CharacterReport},
     solver::Scratch,
     state::CharacterState,
-    surface::{CharacterFilter, CharacterIgnores, NotPushable, SurfaceGrip, SurfaceVelocity},
-    tick::{Surroundings, Tick},
+    surface::{
+        CharacterFilter, CharacterIgnores, Ladder, NotPushable, SurfaceGrip, SurfaceVelocity,
+        WaterVolume,
+    },
+    tick::{Surroundings, Tick, Volume},
 };
 use crate::backend::{
     activity::Activity,
@@ -35,6 +38,8 @@ type Touched = Or<(
     Changed<CollisionGroups>,
     Changed<SurfaceVelocity>,
     Changed<SurfaceGrip>,
+    Added<WaterVolume>,
+    Added<Ladder>,
 )>;
 
 /// Brings the search tree up to the tick and marks where anything moves.
@@ -79,6 +84,7 @@ pub(super) fn solve_characters(
     )>,
     others: Query<&'static CharacterSnapshot>,
     walls: Query<(), With<NotPushable>>,
+    volumes: Query<Volume>,
     mut characters: Query<(
         (Entity, &Character, &CharacterMotor, &CharacterIntent),
         (&RapierContextEntityLink, &RapierRigidBodyHandle),
@@ -140,6 +146,7 @@ pub(super) fn solve_characters(
                     surfaces: &surfaces,
                     others: &others,
                     walls: &walls,
+                    volumes: &volumes,
                 };
                 let Some(tick) = Tick::begin(
                     &surroundings,

@@ -35,7 +35,9 @@ pub use motor::{CharacterMotor, CustomMotor};
 pub use output::{
     CharacterContact, CharacterContacts, CharacterSnapshot, StanceRefusal, StepAttempt, StepResult,
 };
-pub use state::{Anchor, CharacterState, Ground, GroundMaterial, GroundState, MovementMode};
+pub use state::{
+    Anchor, CharacterState, Ground, GroundMaterial, GroundState, LastPose, MovementMode,
+};
 pub use surface::{
     CharacterFilter, CharacterIgnores, CharacterUp, Ladder, NotPushable, SurfaceGrip,
     SurfaceVelocity, UpDirection, WaterVolume,
@@ -63,6 +65,7 @@ impl Plugin for CharacterPlugin {
             .init_resource::<Activity>()
             .init_resource::<ForcedBodies>()
             .init_resource::<measure::Stopwatch>()
+            .add_observer(body::unmake)
             .add_systems(
                 FixedPostUpdate,
                 (

@@ -18,6 +18,19 @@ pub struct CharacterContacts {
     pub queries: u32,
 }
 
+impl CharacterContacts {
+    /// Leaves only what holds for one who does nothing: what it touches.
+    pub(crate) fn rest(&mut self) {
+        self.step = None;
+        self.snapped = 0.0;
+        self.queries = 0;
+        for contact in &mut self.contacts {
+            contact.impulse = Vec3::ZERO;
+            contact.blocked = false;
+        }
+    }
+}
+
 /// One thing touched.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Debug, PartialEq, Clone)]

@@ -11,11 +11,20 @@ use super::{
 pub(super) fn trigger_events(
     mut commands: Commands,
     mut characters: Query<(Entity, &mut CharacterReport)>,
+    mut happened: Local<Vec<Entity>>,
 ) {
-    for (entity, mut report) in &mut characters {
-        if !report.solved {
+    happened.clear();
+    happened.extend(
+        characters
+            .iter()
+            .filter(|(_, report)| report.solved && report.tells())
+            .map(|(entity, _)| entity),
+    );
+    happened.sort_unstable();
+    for entity in happened.iter().copied() {
+        let Ok((_, mut report)) = characters.get_mut(entity) else {
             continue;
-        }
+        };
         let report = report.bypass_change_detection();
         let happened = core::mem::take(&mut report.happened);
         if happened.left {

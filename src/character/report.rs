@@ -32,6 +32,25 @@ pub(crate) struct CharacterReport {
     pub touched: Vec<Entity>,
 }
 
+impl CharacterReport {
+    /// Whether anything happened that events tell of.
+    pub fn tells(&self) -> bool {
+        let Happened {
+            landed,
+            left,
+            stepped,
+            stance,
+            crushed,
+        } = &self.happened;
+        *left
+            || landed.is_some()
+            || stepped.is_some()
+            || stance.is_some()
+            || crushed.is_some()
+            || !self.hits.is_empty()
+    }
+}
+
 /// An impulse for a dynamic body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyImpulse {

@@ -7,8 +7,13 @@ use bevy::{
 
 use super::intent::Stance;
 
-/// The state of a character. Together with its [`Transform`] it is everything that a save or a
-/// rollback must restore: the same state, transform, intents and world give the same bits.
+/// The state of a character. Together with its [`Transform`] it is everything of the character that
+/// a save or a rollback must restore: the same state, transform, intents and world give the same
+/// bits. The world is the physics world as well: a rollback that restores components alone gets
+/// the same motion only as exactly as Rapier takes up the bodies around.
+///
+/// A state that is set back to its default is that of a character which is just spawned: it stands
+/// at its full height where its [`Transform`] is, in the tick that follows.
 #[derive(Component, Reflect, Clone, Debug, PartialEq, MapEntities)]
 #[reflect(Component, Default, Debug, PartialEq, Clone, MapEntities)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -49,19 +54,24 @@ pub struct CharacterState {
     pub jumping: bool,
     /// Whether it was climbing a step in the last tick.
     pub stepping: bool,
-    /// The water or ladder that it is in.
+    /// The water that its waist is in; of several the one that it was in first.
     #[entities]
-    pub volume: Option<Entity>,
+    pub water: Option<Entity>,
+    /// The ladder that its waist is at; of several the one that it was at first.
+    #[entities]
+    pub ladder: Option<Entity>,
+    /// The mode that water or a ladder gave it; it ends with them. Another mode than this was set
+    /// by the game.
+    pub volume_mode: Option<MovementMode>,
     /// Whether it was inside something in the last tick.
     pub overlapping: bool,
     /// Whether the last tick left it pinned between two things that close on it.
     pub crushed: bool,
     /// What a camera adds to the position to see steps as ramps, world axes, metres.
     pub view_offset: Vec3,
-    /// Pose that the last tick ended with, to tell a teleport from a motion: position.
-    pub last_position: Vec3,
-    /// Pose that the last tick ended with, to tell a teleport from a motion: rotation.
-    pub last_rotation: Quat,
+    /// Pose that the last tick ended with, to tell a teleport from a motion; `None` before the
+    /// first tick.
+    pub last_pose: Option<LastPose>,
 }
 
 impl Default for CharacterState {
@@ -82,12 +92,13 @@ impl Default for CharacterState {
             jump_held: false,
             jumping: false,
             stepping: false,
-            volume: None,
+            water: None,
+            ladder: None,
+            volume_mode: None,
             overlapping: false,
             crushed: false,
             view_offset: Vec3::ZERO,
-            last_position: Vec3::NAN,
-            last_rotation: Quat::IDENTITY,
+            last_pose: None,
         }
     }
 }
@@ -177,6 +188,17 @@ impl Default for GroundMaterial {
     }
 }
 
+/// Where a tick ended.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct LastPose {
+    /// The foot, world, metres.
+    pub position: Vec3,
+    /// Rotation in the world, unit length.
+    pub rotation: Quat,
+}
+
 /// Where a foot stands in the frame of its ground.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq, MapEntities)]
 #[reflect(Debug, PartialEq, Clone)]
@@ -202,8 +224,10 @@ pub enum MovementMode {
     /// Free in all directions, without gravity.
     Fly,
     /// In water: buoyed, slowed, free in all directions. Entered and left by a
-    /// [`WaterVolume`](super::WaterVolume), or set by the game.
+    /// [`WaterVolume`](super::WaterVolume); set by the game outside of water it stays until the game
+    /// ends it.
     Swim,
-    /// On a ladder. Entered and left by a [`Ladder`](super::Ladder).
+    /// On a ladder. Entered by moving towards a [`Ladder`](super::Ladder), also out of water, and
+    /// left with it; without a ladder it ends at once.
     Climb,
 }

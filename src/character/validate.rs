@@ -101,7 +101,13 @@ pub(super) fn character(config: &Character) -> Option<Problem> {
     check.not_negative("Character::recovery_speed", config.recovery_speed);
     check.positive("Character::mass", config.mass);
     check.not_negative("Character::push_strength", config.push_strength);
-    check.not_negative("Character::step_smoothing", config.step_smoothing);
+    let ok = config.step_smoothing >= 0.0 && config.step_smoothing.is_finite();
+    check.that(
+        ok,
+        "Character::step_smoothing",
+        config.step_smoothing,
+        "a finite number of at least 0",
+    );
     check.0
 }
 

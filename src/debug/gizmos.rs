@@ -141,12 +141,11 @@ fn draw_outline(
         }
         CharacterShape::ConvexHull { points } => {
             let squeeze = Vec3::new(1.0, if full > 0.0 { height / full } else { 1.0 }, 1.0);
+            // The lowest point is at the foot, wherever the points have their origin.
+            let low = points.iter().map(|p| p.y).fold(f32::MAX, f32::min);
+            let at = |p: Vec3| foot + rotation * ((p - Vec3::Y * low) * squeeze);
             for (i, j) in hull_edges(points) {
-                gizmos.line(
-                    foot + rotation * (points[i] * squeeze),
-                    foot + rotation * (points[j] * squeeze),
-                    color,
-                );
+                gizmos.line(at(points[i]), at(points[j]), color);
             }
         }
     }

@@ -11,7 +11,7 @@ use bevy_rapier3d::rapier::{
     math::Pose,
     parry::{
         query::{self},
-        shape::{Ball, Capsule, Cuboid as ParryCuboid, HalfSpace, Segment, Shape, Triangle},
+        shape::{Ball, Capsule, Cuboid as ParryCuboid, Segment, Shape, Triangle},
     },
 };
 
@@ -297,16 +297,19 @@ fn convex_to(core: &dyn Shape, position: &Pose, geometry: &Geometry, up: Vec3) -
             found
         }
         Geometry::HalfSpace { point, normal } => {
-            let half_space = HalfSpace::new(*normal);
-            let mut found = shapes(
-                core,
-                position,
-                &half_space,
-                &Pose::from_translation(*point),
-                up,
-            );
-            found.on_face = true;
-            found
+            // The lowest point over the plane, in closed form.
+            let local = position.rotation.inverse() * -*normal;
+            let lowest = core.as_support_map().map_or(position.translation, |core| {
+                position.rotation * core.local_support_point(local) + position.translation
+            });
+            let height = (lowest - *point).dot(*normal);
+            Closest {
+                distance: height,
+                normal: *normal,
+                point: lowest - *normal * height,
+                on_face: true,
+                surface: *normal,
+            }
         }
         Geometry::Convex {
             shape,

@@ -12,7 +12,7 @@ mod run;
 mod walk;
 
 pub use config::{CharacterMotor, CustomMotor};
-pub(super) use run::{drive_motors, leave_ground};
+pub(super) use run::{drive_motors, kept_velocity, leave_ground};
 pub(super) use walk::along_ground;
 
 use bevy::prelude::*;

@@ -1,7 +1,7 @@
 //! The system that runs the motors, and the choice of mode.
 
-use bevy::prelude::*;
-use bevy_rapier3d::plugin::context::RapierContextEntityLink;
+use bevy::{math::ops, prelude::*};
+use bevy_rapier3d::{plugin::context::RapierContextEntityLink, prelude::RigidBodyDisabled};
 
 use super::{
     CharacterMotor, Course, CustomMotor,
@@ -10,35 +10,39 @@ use super::{
     walk::walk,
 };
 use crate::{
-    backend::world::PhysicsWorlds,
+    backend::world::{PhysicsView, PhysicsWorlds},
     character::{
-        body::CharacterBody,
+        body::{self, CharacterBody},
         config::{Character, LeaveVelocity},
         intent::{CharacterIntent, Stance},
         output::CharacterSnapshot,
         report::CharacterReport,
         state::{CharacterState, GroundState, MovementMode},
-        surface::{CharacterUp, Ladder, UpDirection, WaterVolume},
+        surface::{CharacterUp, UpDirection},
+        tick::{FASTEST, Volume},
     },
 };
 
 /// Waking-up speed: below this a velocity counts as none, metres per second.
 const STILL: f32 = 1.0e-6;
+/// Ups closer than this are the same, radians.
+const SAME_UP: f32 = 1.0e-6;
 
 /// Decides every character's velocity for the tick and publishes it to the others.
 pub(crate) fn drive_motors(
     time: Res<Time>,
     worlds: PhysicsWorlds,
     poses: Query<&GlobalTransform>,
-    volumes: Volumes,
+    volumes: Query<Volume>,
     mut characters: Query<(
+        Entity,
         &Character,
         &CharacterMotor,
         &CharacterIntent,
         &CharacterBody,
         &RapierContextEntityLink,
         Option<&CharacterUp>,
-        Has<CustomMotor>,
+        (Has<CustomMotor>, Has<RigidBodyDisabled>),
         &mut CharacterState,
         &mut CharacterSnapshot,
         &mut CharacterReport,
@@ -49,11 +53,33 @@ pub(crate) fn drive_motors(
         return;
     }
     characters.par_iter_mut().for_each(
-        |(config, motor, intent, body, link, up, custom, mut state, mut snapshot, mut report)| {
+        |(
+            entity,
+            config,
+            motor,
+            intent,
+            body,
+            link,
+            up,
+            (custom, disabled),
+            mut state,
+            mut snapshot,
+            mut report,
+        )| {
             let Some(view) = worlds.of(link) else { return };
-            if body.mover.is_none() || !view.active {
+            if body.mover.is_none() || disabled || !view.active {
+                // Out of the game: nobody waits for it, and nothing happens to it.
+                if snapshot.active {
+                    snapshot.active = false;
+                    snapshot.velocity = Vec3::ZERO;
+                }
+                if report.solved || report.woken {
+                    report.solved = false;
+                    report.woken = false;
+                }
                 return;
             }
+            let wanted = up.and_then(|up| wanted_up(entity, &state, up, view.gravity, &poses));
             let intent = finite(*intent);
             let at_rest = state.on_ground()
                 && state.velocity == Vec3::ZERO
@@ -62,7 +88,8 @@ pub(crate) fn drive_motors(
                 && !state.jump_held
                 && state.mode == MovementMode::Walk
                 && state.jump_buffer == 0.0
-                && up.is_none();
+                && state.water.is_none()
+                && wanted.is_none_or(|wanted| angle_between(state.up, wanted) <= SAME_UP);
             if at_rest {
                 if snapshot.active {
                     snapshot.active = false;
@@ -79,8 +106,15 @@ pub(crate) fn drive_motors(
             report.was = state.ground.state;
             report.left = state.ground.entity;
             report.jumped = false;
-            if let Some(up) = up {
-                follow_up(state, up, view.gravity, &poses, dt);
+            if let (Some(up), Some(wanted)) = (up, wanted) {
+                // Nobody has to turn to the up that it begins with.
+                let first = state.last_pose.is_none();
+                let most = if first {
+                    f32::INFINITY
+                } else {
+                    up.turn_rate.max(0.0) * dt
+                };
+                follow_up(state, wanted, most);
             }
             let course = if custom {
                 let leaves = state.velocity.dot(state.up) > 0.1
@@ -101,7 +135,7 @@ pub(crate) fn drive_motors(
                     report,
                 };
                 run.choose_mode(&volumes);
-                run.course(&volumes)
+                run.course(&volumes, &view)
             };
             state.velocity = if course.end.length_squared() > STILL * STILL {
                 course.end
@@ -110,7 +144,7 @@ pub(crate) fn drive_motors(
             };
             report.mean = course.mean;
             snapshot.active = true;
-            snapshot.velocity = course.mean + state.platform_velocity;
+            snapshot.velocity = (course.mean + state.platform_velocity).clamp_length_max(FASTEST);
         },
     );
 }
@@ -126,17 +160,21 @@ fn finite_or_zero(v: Vec3) -> Vec3 {
     if v.is_finite() { v } else { Vec3::ZERO }
 }
 
-/// Turns the character's up towards where it should be.
-fn follow_up(
-    state: &mut CharacterState,
+/// Where up should be, unit length; `None` where the rule tells nothing.
+fn wanted_up(
+    character: Entity,
+    state: &CharacterState,
     up: &CharacterUp,
     gravity: Vec3,
     poses: &Query<&GlobalTransform>,
-    dt: f32,
-) {
+) -> Option<Vec3> {
+    let pose = || poses.get(character).ok();
     let wanted = match up.direction {
         UpDirection::World(direction) => direction,
-        UpDirection::AwayFrom(center) => state.last_position - center,
+        UpDirection::AwayFrom(center) => match state.last_pose {
+            Some(pose) => pose.position - center,
+            None => pose()?.translation() - center,
+        },
         UpDirection::AgainstGravity => -gravity,
         UpDirection::Of(entity, direction) => poses
             .get(entity)
@@ -144,19 +182,32 @@ fn follow_up(
         UpDirection::Ground => {
             if state.on_ground() {
                 state.ground.normal
-            } else {
+            } else if state.last_pose.is_some() {
                 state.up
+            } else {
+                Vec3::ZERO
             }
         }
     };
-    let Some(wanted) = wanted.try_normalize().filter(|up| up.is_finite()) else {
-        return;
-    };
-    let angle = state.up.angle_between(wanted);
-    if !(angle > 1.0e-6) {
+    let unit = |v: Vec3| v.try_normalize().filter(|up| up.is_finite());
+    unit(wanted).or_else(|| {
+        // Without a rule a character begins upright in its own axes.
+        let first = state.last_pose.is_none();
+        first.then(|| unit(pose()?.rotation() * Vec3::Y)).flatten()
+    })
+}
+
+/// Angle between two unit vectors, radians; exact also where it is small.
+fn angle_between(a: Vec3, b: Vec3) -> f32 {
+    ops::atan2(a.cross(b).length(), a.dot(b))
+}
+
+/// Turns the character's up towards where it should be, by at most this angle, radians.
+fn follow_up(state: &mut CharacterState, wanted: Vec3, most: f32) {
+    let angle = angle_between(state.up, wanted);
+    if !(angle > SAME_UP) {
         return;
     }
-    let most = up.turn_rate.max(0.0) * dt;
     let turn = if most >= angle {
         Quat::from_rotation_arc(state.up, wanted)
     } else {
@@ -173,15 +224,19 @@ fn follow_up(
 
 /// The ground's motion becomes the character's own, as far as the config says.
 pub(crate) fn leave_ground(config: &Character, state: &mut CharacterState) {
-    let platform = state.platform_velocity;
-    state.velocity += match config.leave_velocity {
-        LeaveVelocity::None => Vec3::ZERO,
-        LeaveVelocity::Full => platform,
-        LeaveVelocity::UpOnly => state.up * platform.dot(state.up).max(0.0),
-    };
+    state.velocity += kept_velocity(config, state.up, state.platform_velocity);
     state.platform_velocity = Vec3::ZERO;
     state.ground.state = GroundState::InAir;
     state.anchor = None;
+}
+
+/// What of a platform's velocity is kept by who leaves it.
+pub(crate) fn kept_velocity(config: &Character, up: Vec3, platform: Vec3) -> Vec3 {
+    match config.leave_velocity {
+        LeaveVelocity::None => Vec3::ZERO,
+        LeaveVelocity::Full => platform,
+        LeaveVelocity::UpOnly => up * platform.dot(up).max(0.0),
+    }
 }
 
 /// One motor in one tick.
@@ -195,40 +250,36 @@ struct Run<'a> {
     report: &'a mut CharacterReport,
 }
 
-type Volumes<'w, 's> = Query<
-    'w,
-    's,
-    (
-        Option<&'static WaterVolume>,
-        Option<&'static Ladder>,
-        &'static GlobalTransform,
-    ),
->;
-
 impl Run<'_> {
-    /// Enters and leaves water and ladders.
-    fn choose_mode(&mut self, volumes: &Volumes) {
+    /// Enters and leaves water and ladders. A ladder that is climbed, or moved towards, comes
+    /// before water.
+    fn choose_mode(&mut self, volumes: &Query<Volume>) {
         if self.state.mode == MovementMode::Fly {
+            self.state.volume_mode = None;
             return;
         }
-        let volume = self
-            .state
-            .volume
-            .and_then(|entity| volumes.get(entity).ok());
-        let mode = match volume {
-            Some((Some(_), _, _)) => MovementMode::Swim,
-            Some((_, Some(_), pose)) => {
-                let out = pose.rotation() * Vec3::Z;
-                let climbing = self.state.mode == MovementMode::Climb;
-                let steps_off = self.state.on_ground() && self.intent.movement.dot(out) > 0.1;
-                if (climbing && !steps_off) || ladder::begins(self.intent.movement, out) {
-                    MovementMode::Climb
-                } else {
-                    MovementMode::Walk
-                }
-            }
-            _ => MovementMode::Walk,
+        let climbs = self.ladder(volumes).is_some_and(|pose| {
+            let out = pose.rotation() * Vec3::Z;
+            let climbing = self.state.mode == MovementMode::Climb;
+            let steps_off = self.state.on_ground() && self.intent.movement.dot(out) > 0.1;
+            (climbing && !steps_off) || ladder::begins(self.intent.movement, out)
+        });
+        let given = if climbs {
+            Some(MovementMode::Climb)
+        } else if self.water(volumes).is_some() {
+            Some(MovementMode::Swim)
+        } else {
+            None
         };
+        // What the game has set outlasts all but another volume.
+        let by_game = self.state.volume_mode != Some(self.state.mode)
+            && self.state.mode != MovementMode::Climb;
+        let mode = match given {
+            Some(mode) => mode,
+            None if by_game => self.state.mode,
+            None => MovementMode::Walk,
+        };
+        self.state.volume_mode = given;
         if mode != self.state.mode {
             let leaps = self.state.mode == MovementMode::Swim && self.intent.jump;
             self.state.mode = mode;
@@ -244,7 +295,19 @@ impl Run<'_> {
         }
     }
 
-    fn course(&mut self, volumes: &Volumes) -> Course {
+    /// Pose of the ladder that it is at.
+    fn ladder<'v>(&self, volumes: &'v Query<Volume>) -> Option<&'v GlobalTransform> {
+        let (_, ladder, pose) = volumes.get(self.state.ladder?).ok()?;
+        ladder.map(|_| pose)
+    }
+
+    /// Flow of the water that it is in, metres per second.
+    fn water(&self, volumes: &Query<Volume>) -> Option<Vec3> {
+        let (water, ..) = volumes.get(self.state.water?).ok()?;
+        water.map(|water| finite_or_zero(water.flow))
+    }
+
+    fn course(&mut self, volumes: &Query<Volume>, view: &PhysicsView) -> Course {
         let pressed = self.intent.jump && !self.state.jump_held;
         self.state.jump_held = self.intent.jump;
         self.state.jump_buffer = if pressed {
@@ -258,10 +321,6 @@ impl Run<'_> {
             (self.state.coyote_time - self.dt).max(0.0)
         };
         let movement = limited(self.intent.movement);
-        let volume = self
-            .state
-            .volume
-            .and_then(|entity| volumes.get(entity).ok());
         match self.state.mode {
             MovementMode::Walk => self.on_foot(),
             MovementMode::Fly => {
@@ -273,10 +332,7 @@ impl Run<'_> {
                 free::drift(self.state.velocity, wish, Vec3::ZERO, rate, self.dt)
             }
             MovementMode::Swim => {
-                let flow = volume
-                    .and_then(|(water, ..)| water.map(|water| water.flow))
-                    .filter(|flow| flow.is_finite())
-                    .unwrap_or(Vec3::ZERO);
+                let flow = self.water(volumes).unwrap_or(Vec3::ZERO);
                 let up = if self.intent.jump {
                     self.state.up
                 } else {
@@ -287,25 +343,36 @@ impl Run<'_> {
                 free::drift(self.state.velocity, wish, flow, rate, self.dt)
             }
             MovementMode::Climb => {
-                let Some((_, _, pose)) = volume else {
+                let (Some(entity), Some(pose)) = (self.state.ladder, self.ladder(volumes)) else {
                     return self.on_foot();
                 };
-                let out = pose.rotation() * Vec3::Z;
+                let (out, rungs) = (pose.rotation() * Vec3::Z, pose.rotation() * Vec3::Y);
+                let middle = self.state.last_pose.map_or(pose.translation(), |last| {
+                    last.position + self.state.up * (self.state.height * 0.5)
+                });
+                // The ladder takes its climber along, as ground would.
+                let along = view.point_velocity(entity, middle, self.dt);
                 if self.state.jump_buffer > 0.0 {
                     self.state.jump_buffer = 0.0;
                     self.state.mode = MovementMode::Walk;
-                    self.state.volume = None;
-                    self.state.velocity = (out + self.state.up) * self.motor.climb_speed;
+                    self.state.volume_mode = None;
+                    self.state.ladder = None;
                     leave_ground(self.config, self.state);
+                    self.state.velocity = (out + self.state.up) * self.motor.climb_speed
+                        + kept_velocity(self.config, self.state.up, along);
                     return self.in_air(Vec3::ZERO);
                 }
-                let rungs = pose.rotation() * Vec3::Y;
                 let course =
                     ladder::climb(movement, rungs, out, self.state.up, self.motor.climb_speed);
                 if self.state.on_ground() && course.end.dot(self.state.up) > 0.0 {
                     leave_ground(self.config, self.state);
                 }
-                course
+                let along = if self.state.on_ground() {
+                    along - self.state.platform_velocity
+                } else {
+                    along
+                };
+                Course::constant(course.end + along)
             }
         }
     }
@@ -313,13 +380,7 @@ impl Run<'_> {
     fn on_foot(&mut self) -> Course {
         let up = self.state.up;
         let movement = self.intent.movement;
-        let speed = if self.state.stance != Stance::Stand {
-            self.motor.crouch_speed
-        } else if self.intent.sprint {
-            self.motor.sprint_speed
-        } else {
-            self.motor.walk_speed
-        };
+        let speed = self.speed();
         let wish = limited(movement - up * movement.dot(up)) * speed;
         let may_jump = self.state.on_ground() || self.state.coyote_time > 0.0;
         if self.state.jump_buffer > 0.0 && may_jump {
@@ -356,6 +417,26 @@ impl Run<'_> {
             rate,
             self.dt,
         )
+    }
+
+    /// Speed on foot: that of standing at the full height, of crouching at the crouched height and
+    /// below, in proportion between.
+    fn speed(&self) -> f32 {
+        let standing = if self.intent.sprint {
+            self.motor.sprint_speed
+        } else {
+            self.motor.walk_speed
+        };
+        let full = self.config.shape.height();
+        let low = body::wanted_height(self.config, Stance::Crouch).unwrap_or(full);
+        let (above, range) = (self.state.height - low, full - low);
+        if above >= range {
+            standing
+        } else if above <= 0.0 {
+            self.motor.crouch_speed
+        } else {
+            self.motor.crouch_speed + (standing - self.motor.crouch_speed) * (above / range)
+        }
     }
 
     fn in_air(&mut self, mut wish: Vec3) -> Course {

@@ -21,10 +21,12 @@ use super::{
 use crate::backend::{neighbourhood::MoverPose, world::WorldPose};
 
 use outcome::support_velocity;
-pub(super) use surroundings::Surroundings;
+pub(super) use surroundings::{Surroundings, Volume};
 
 /// Faster than this nothing is moved, metres per second.
-const FASTEST: f32 = 1.0e4;
+pub(in crate::character) const FASTEST: f32 = 1.0e4;
+/// A turn of less than this is none, radians.
+const STILL_TURN: f32 = 1.0e-5;
 /// Deeper than this inside something that closes in is being crushed, metres.
 const CRUSH: f32 = 2.0e-3;
 
@@ -61,13 +63,27 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         let (now, asked) = around.view.body_pose(handle)?;
         let mover = body.mover.as_ref()?;
         // Rounding on the way through the physics world and the transform is no placement: then
-        // the state knows better.
-        let kept = WorldPose {
-            position: state.last_position,
-            rotation: state.last_rotation,
+        // the state knows better. A turn by the game is none either: it takes nobody off the
+        // ground.
+        let sound = asked.position.is_finite() && asked.rotation.is_normalized();
+        let kept = state.last_pose.map(|pose| WorldPose {
+            position: pose.position,
+            rotation: pose.rotation,
+        });
+        let (start, placed, turned) = match kept {
+            Some(kept) if !sound => (kept, false, true),
+            Some(kept) => {
+                let placed = !(same_place(asked, kept) && same_place(now, kept));
+                let turned = !same_turn(asked, kept);
+                let start = WorldPose {
+                    position: if placed { asked } else { kept }.position,
+                    rotation: if placed || turned { asked } else { kept }.rotation,
+                };
+                (start, placed, turned)
+            }
+            None if sound => (asked, true, false),
+            None => return None,
         };
-        let placed = !(nearly(asked, kept) && nearly(now, kept));
-        let start = if placed { asked } else { kept };
         let wanted = body::wanted_height(config, intent.stance);
         let reach = Vec3::splat(mover.reach + 0.1);
         let middle = start.position + state.up * mover.middle;
@@ -86,6 +102,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         let lost = state.on_ground() && !placed && carry.lost;
         let at_rest = !report.woken
             && !placed
+            && !turned
             && !lost
             && !carry.moving
             && wanted == Some(state.height)
@@ -94,12 +111,14 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             && state.on_ground()
             && !state.crushed
             && !state.overlapping
-            && motor.turn_rate.is_none()
+            && asked_turn(motor, intent, start.rotation, state.up).abs() < STILL_TURN
             && !around.filters_changed
             && !around.activity.near(middle - reach, middle + reach);
         if at_rest {
             if report.solved {
                 report.solved = false;
+                // What is told is told of the last tick, in which nothing was tried.
+                contacts.rest();
             }
             return None;
         }
@@ -259,13 +278,9 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             rotation = Quat::from_axis_angle(up, self.carry.turn) * rotation;
         }
         if let Some(rate) = self.motor.turn_rate {
-            let facing = self.intent.facing.unwrap_or(self.intent.movement);
-            let level = facing - up * facing.dot(up);
-            if let Some(level) = level.try_normalize() {
-                let ahead = rotation * Vec3::NEG_Z;
-                let ahead = (ahead - up * ahead.dot(up)).normalize_or(level);
-                let angle = ops::atan2(ahead.cross(level).dot(up), ahead.dot(level));
-                let most = rate * self.around.dt;
+            let angle = asked_turn(self.motor, self.intent, rotation, up);
+            let most = rate * self.around.dt;
+            if angle != 0.0 {
                 rotation = Quat::from_axis_angle(up, angle.clamp(-most, most)) * rotation;
             }
         }
@@ -308,9 +323,35 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
     }
 }
 
-/// Whether two poses differ by no more than rounding.
-fn nearly(a: WorldPose, b: WorldPose) -> bool {
+/// Turn about up from where it faces to where it is asked to face, radians.
+fn asked_turn(motor: &CharacterMotor, intent: &CharacterIntent, rotation: Quat, up: Vec3) -> f32 {
+    if motor.turn_rate.is_none() {
+        return 0.0;
+    }
+    let facing = intent.facing.unwrap_or(intent.movement);
+    let level = facing - up * facing.dot(up);
+    let Some(level) = level.try_normalize() else {
+        return 0.0;
+    };
+    let ahead = rotation * Vec3::NEG_Z;
+    let ahead = (ahead - up * ahead.dot(up)).normalize_or(level);
+    ops::atan2(ahead.cross(level).dot(up), ahead.dot(level))
+}
+
+/// Whether two poses are at one place, up to rounding.
+fn same_place(a: WorldPose, b: WorldPose) -> bool {
     let near = 1.0e-5 + 1.0e-6 * b.position.abs().max_element();
     // Written so that what is not a number is far.
-    a.position.distance(b.position) <= near && a.rotation.dot(b.rotation).abs() >= 1.0 - 1.0e-6
+    a.position.distance(b.position) <= near
+}
+
+/// Whether two poses are turned alike, up to rounding. By the difference of the quaternions, half
+/// the angle: their product cannot tell less than a tenth of a degree.
+fn same_turn(a: WorldPose, b: WorldPose) -> bool {
+    let flip = if a.rotation.dot(b.rotation) < 0.0 {
+        -b.rotation
+    } else {
+        b.rotation
+    };
+    (a.rotation - flip).length_squared() <= 1.0e-12
 }

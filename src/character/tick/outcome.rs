@@ -7,12 +7,12 @@ use crate::{
     backend::{neighbourhood::ObstacleKind, world::WorldPose},
     character::{
         config::SlopeSpeed,
-        motor::{along_ground, leave_ground},
+        motor::{along_ground, kept_velocity, leave_ground},
         output::{CharacterContact, StepAttempt},
         platform,
         report::{BodyImpulse, NewHit},
         solver::{Bend, Solver, Support},
-        state::{Anchor, Ground, GroundMaterial, GroundState},
+        state::{Anchor, Ground, GroundMaterial, GroundState, LastPose},
     },
 };
 
@@ -38,8 +38,8 @@ impl Tick<'_, '_, '_, '_> {
         let exact = origin.as_dvec3() + p.as_dvec3();
         let position = exact.as_vec3();
         self.state.residual = (exact - position.as_dvec3()).as_vec3();
-        self.state.last_position = position;
-        self.state.last_rotation = rotation;
+        let first = self.state.last_pose.is_none();
+        self.state.last_pose = Some(LastPose { position, rotation });
         self.report.target = Some(WorldPose { position, rotation });
 
         let mut velocity = solver.velocity;
@@ -61,8 +61,12 @@ impl Tick<'_, '_, '_, '_> {
                 ground.velocity
             };
             if !same {
-                self.state.velocity += if was_on_ground { carried } else { Vec3::ZERO };
-                self.state.velocity -= platform;
+                // From one ground to the next it is the difference that is kept or not.
+                self.state.velocity += if was_on_ground {
+                    kept_velocity(self.config, up, carried - platform)
+                } else {
+                    -platform
+                };
             }
             let level = self.state.velocity - up * self.state.velocity.dot(up);
             let length = if same || was_on_ground {
@@ -96,8 +100,10 @@ impl Tick<'_, '_, '_, '_> {
         if self.report.was == GroundState::OnGround && !on_ground {
             self.report.happened.left = true;
         }
+        // Who begins on the ground has not come down on it.
         if self.report.was != GroundState::OnGround
             && on_ground
+            && !first
             && let Some(entity) = ground.entity
         {
             let speed = (ground.velocity - before).dot(ground.normal).max(0.0);
@@ -112,7 +118,12 @@ impl Tick<'_, '_, '_, '_> {
             self.state.jumping = false;
         }
         self.state.ground = ground;
-        self.state.volume = solver.near.volumes.iter().copied().min();
+        self.state.water = self
+            .around
+            .volume(&solver.near.volumes, self.state.water, |v| v.0.is_some());
+        self.state.ladder = self
+            .around
+            .volume(&solver.near.volumes, self.state.ladder, |v| v.1.is_some());
 
         // What the slope does not explain is a step, up or down.
         let rise = if on_ground && was_on_ground {

@@ -1,6 +1,6 @@
 //! What a character can see of the world.
 
-use bevy::prelude::*;
+use bevy::{ecs::query::QueryData, prelude::*};
 use bevy_rapier3d::prelude::CollisionGroups;
 
 use crate::{
@@ -10,7 +10,10 @@ use crate::{
     },
     character::{
         output::CharacterSnapshot,
-        surface::{CharacterFilter, CharacterIgnores, NotPushable, SurfaceGrip, SurfaceVelocity},
+        surface::{
+            CharacterFilter, CharacterIgnores, Ladder, NotPushable, SurfaceGrip, SurfaceVelocity,
+            WaterVolume,
+        },
     },
 };
 
@@ -35,7 +38,15 @@ pub(in crate::character) struct Surroundings<'a, 'w, 's> {
     >,
     pub others: &'a Query<'w, 's, &'static CharacterSnapshot>,
     pub walls: &'a Query<'w, 's, (), With<NotPushable>>,
+    pub volumes: &'a Query<'w, 's, Volume>,
 }
+
+/// What a sensor can be to a character.
+pub(in crate::character) type Volume = (
+    Option<&'static WaterVolume>,
+    Option<&'static Ladder>,
+    &'static GlobalTransform,
+);
 
 impl Surroundings<'_, '_, '_> {
     pub fn judge(&self, collider: Entity, body: Entity) -> Verdict {
@@ -55,6 +66,23 @@ impl Surroundings<'_, '_, '_> {
         } else {
             Verdict::AsIs
         }
+    }
+
+    /// Of the sensors around, the one that `is` what is looked for: `last` as long as it is among
+    /// them.
+    pub fn volume(
+        &self,
+        sensors: &[Entity],
+        last: Option<Entity>,
+        is: impl Fn(&<Volume as QueryData>::Item<'_, '_>) -> bool,
+    ) -> Option<Entity> {
+        let mut found = sensors
+            .iter()
+            .copied()
+            .filter(|entity| self.volumes.get(*entity).is_ok_and(|volume| is(&volume)));
+        let first = found.clone().min();
+        last.filter(|last| found.any(|entity| entity == *last))
+            .or(first)
     }
 
     pub fn surface_velocity(&self, entity: Entity) -> SurfaceVelocity {

@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::Collider;
 use embody_scenes::Sim;
 
 use super::{support::*, warnings};
@@ -159,7 +160,7 @@ fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from
         (
             "step_smoothing",
             |c, v| c.step_smoothing = v,
-            &[f32::NAN, -1.0],
+            &[f32::NAN, f32::INFINITY, -1.0],
         ),
     ];
     let mut found = Findings::new();
@@ -172,7 +173,9 @@ fn a_config_that_is_no_number_or_out_of_range_is_refused_once_and_recovered_from
                 |sim, who| {
                     edit::<Character>(sim, who, |character| *character = Character::default());
                 },
-                value.is_nan() || value < 0.0 || field == "radius" || field == "height",
+                value.is_nan()
+                    || value < 0.0
+                    || ["radius", "height", "step_smoothing"].contains(&field),
             );
         }
     }
@@ -236,5 +239,153 @@ fn a_transform_or_velocity_that_is_no_number_is_recovered_from() {
             |sim, who| set_velocity(sim, who, Vec3::ZERO),
             false,
         );
+    }
+}
+
+#[test]
+fn a_rotation_or_scale_of_zero_is_recovered_from() {
+    let mut found = Findings::new();
+    for (name, spoilt) in [
+        (
+            "zero quaternion",
+            Transform::from_rotation(Quat::from_xyzw(0.0, 0.0, 0.0, 0.0)),
+        ),
+        (
+            "long quaternion",
+            Transform::from_rotation(Quat::from_xyzw(0.0, 3.0, 0.0, 4.0)),
+        ),
+        ("zero scale", Transform::from_scale(Vec3::ZERO)),
+        ("flat", Transform::from_scale(Vec3::new(1.0, 0.0, 1.0))),
+        ("scale that is no number", Transform::from_scale(Vec3::NAN)),
+    ] {
+        bad(
+            &mut found,
+            name,
+            |sim, who| edit::<Transform>(sim, who, |t| *t = spoilt),
+            |sim, who| edit::<Transform>(sim, who, |t| *t = Transform::IDENTITY),
+            true,
+        );
+    }
+}
+
+#[test]
+fn a_scale_of_zero_at_spawn_or_at_a_parent_is_recovered_from() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let who = sim.spawn((
+            Character::default(),
+            prompt(),
+            Transform::from_scale(Vec3::ZERO),
+        ));
+        let parent = sim.spawn(Transform::IDENTITY);
+        let child = sim.spawn((
+            Character::default(),
+            prompt(),
+            Transform::from_xyz(5.0, 0.0, 0.0),
+            ChildOf(parent),
+        ));
+        sim.seconds(0.3);
+        edit::<Transform>(&mut sim, parent, |t| t.scale = Vec3::ZERO);
+        sim.seconds(0.3);
+        found.holds(format!("{hz} Hz: spawned flat"), finite(&sim, who));
+        let state = sim.state(child);
+        found.holds(
+            format!("{hz} Hz: flat parent {state:?}"),
+            state.velocity.is_finite() && state.ground.point.is_finite() && state.up.is_finite(),
+        );
+        edit::<Transform>(&mut sim, who, |t| *t = Transform::IDENTITY);
+        edit::<Transform>(&mut sim, parent, |t| *t = Transform::IDENTITY);
+        edit::<Transform>(&mut sim, child, |t| *t = Transform::from_xyz(5.0, 0.0, 0.0));
+        sim.seconds(0.3);
+        for (name, entity, from) in [("spawned flat", who, 0.0), ("flat parent", child, 5.0)] {
+            let start = sim.position(entity);
+            found.near(format!("{hz} Hz {name}: place"), start.x, from, 0.01);
+            sim.walk(entity, Vec3::Z);
+            sim.seconds(0.5);
+            found.within(
+                format!("{hz} Hz {name}: walks"),
+                sim.position(entity).z - start.z,
+                2.5,
+                0.01,
+            );
+        }
+    }
+}
+
+#[test]
+fn a_bad_value_is_told_once_however_often_its_component_is_touched() {
+    let mut found = Findings::new();
+    let mut sim = Sim::new(60.0);
+    warnings::unique_entities(&mut sim);
+    sim.floor(0.0);
+    let who = runner(&mut sim, Vec3::ZERO);
+    sim.seconds(0.2);
+    let touch = |sim: &mut Sim, jump: f32, mass: f32| {
+        for _ in 0..30 {
+            edit::<CharacterMotor>(sim, who, |motor| motor.jump_height = jump);
+            edit::<Character>(sim, who, |character| character.mass = mass);
+            sim.ticks(1);
+        }
+        warnings::about(who).len() as f32
+    };
+    found.near("bad height", touch(&mut sim, f32::NAN, 70.0), 1.0, 0.0);
+    found.near("other bad height", touch(&mut sim, -1.0, 70.0), 2.0, 0.0);
+    found.near("bad mass beside", touch(&mut sim, -1.0, 0.0), 3.0, 0.0);
+    found.near("mended", touch(&mut sim, 1.2, 70.0), 3.0, 0.0);
+    found.near("bad again", touch(&mut sim, -1.0, 70.0), 4.0, 0.0);
+}
+
+#[test]
+fn touching_the_motor_or_the_config_rebuilds_nothing_while_the_shape_stays() {
+    let mut found = Findings::new();
+    for shape in [Character::default(), Character::cylinder(0.3, 1.8)] {
+        let mut sim = Sim::new(60.0);
+        sim.floor(0.0);
+        let who = runner_with(&mut sim, shape, Vec3::ZERO);
+        sim.seconds(0.2);
+        let changed = |sim: &Sim| {
+            sim.app
+                .world()
+                .entity(who)
+                .get_ref::<Collider>()
+                .expect("a character has a collider")
+                .last_changed()
+        };
+        let before = changed(&sim);
+        for i in 0..20 {
+            edit::<CharacterMotor>(&mut sim, who, |motor| motor.walk_speed = 4.0 + i as f32);
+            edit::<Character>(&mut sim, who, |character| character.max_slope = 0.5);
+            sim.ticks(1);
+        }
+        found.holds("the collider is the same", changed(&sim) == before);
+        edit::<Character>(&mut sim, who, |c| {
+            c.shape = CharacterShape::Capsule {
+                radius: 0.4,
+                height: 1.7,
+            }
+        });
+        sim.ticks(1);
+        found.holds(
+            "another shape has another collider",
+            changed(&sim) != before,
+        );
+        found.near("height", sim.state(who).height, 1.7, 0.0);
+    }
+}
+
+#[test]
+fn a_capsule_a_hair_lower_than_its_two_radii_is_a_ball() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let who = runner_with(&mut sim, Character::capsule(0.5, 0.99995), Vec3::ZERO);
+        sim.intent(who, |intent| intent.stance = Stance::Crouch);
+        sim.seconds(0.5);
+        sim.walk(who, Vec3::X);
+        sim.seconds(0.5);
+        found.at_least(format!("{hz} Hz"), sim.position(who).x, 1.0);
     }
 }

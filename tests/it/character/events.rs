@@ -434,3 +434,52 @@ fn nothing_happens_to_one_who_stands_still() {
         );
     }
 }
+
+#[test]
+fn who_is_spawned_on_the_ground_has_not_landed() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        record(&mut sim);
+        sim.floor(0.0);
+        let who = runner(&mut sim, Vec3::ZERO);
+        sim.seconds(0.5);
+        let log = take_events(&mut sim);
+        found.holds(
+            format!("{hz} Hz: {log:?}"),
+            log == EventLog::default() && sim.state(who).on_ground(),
+        );
+        // A jump ends with a landing, as ever.
+        sim.intent(who, |intent| intent.jump = true);
+        sim.seconds(1.5);
+        found.near(
+            format!("{hz} Hz: landings"),
+            take_events(&mut sim).landed.len() as f32,
+            1.0,
+            0.0,
+        );
+    }
+}
+
+#[test]
+fn events_of_one_tick_come_in_the_order_of_the_entities() {
+    let mut sim = Sim::new(60.0);
+    record(&mut sim);
+    sim.floor(0.0);
+    let mut falling: Vec<Entity> = (0..6)
+        .map(|i| runner(&mut sim, Vec3::new(3.0 * i as f32, 1.0, 0.0)))
+        .collect();
+    // Other tables for some of them.
+    for i in [0, 2, 3] {
+        insert(&mut sim, falling[i], CharacterUp::default());
+    }
+    insert(&mut sim, falling[1], Name::new("another"));
+    sim.seconds(2.0);
+    let landed: Vec<Entity> = take_events(&mut sim)
+        .landed
+        .iter()
+        .map(|landed| landed.entity)
+        .collect();
+    falling.sort();
+    assert_eq!(landed, falling);
+}

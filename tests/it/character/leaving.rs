@@ -131,3 +131,55 @@ fn a_jump_on_a_sinking_lift_is_not_pulled_back() {
         }
     }
 }
+
+#[test]
+fn stepping_from_a_platform_onto_other_ground_keeps_as_much_as_configured() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (rule, x) in [
+            (LeaveVelocity::Full, 3.0),
+            (LeaveVelocity::None, 0.0),
+            (LeaveVelocity::UpOnly, 0.0),
+        ] {
+            // The other ground stands still, or goes along beside.
+            for along in [false, true] {
+                let mut sim = Sim::new(hz);
+                let way = |z: f64| later(move |t| DVec3::new(3.0 * t, -0.25, z));
+                sim.mover(board(), way(0.0));
+                if along {
+                    sim.mover(board(), way(6.0));
+                } else {
+                    sim.block(Vec3::new(0.0, -0.5, 23.0), Vec3::new(100.0, 1.0, 40.0));
+                }
+                let who = sim.spawn((
+                    Character {
+                        leave_velocity: rule,
+                        ..default()
+                    },
+                    // On its own it keeps the velocity that it has.
+                    CharacterMotor {
+                        acceleration: 0.0,
+                        friction: 0.0,
+                        ..default()
+                    },
+                    Transform::from_xyz(0.0, 0.0, 2.0),
+                ));
+                sim.seconds(1.0);
+                set_velocity(&mut sim, who, Vec3::Z * 2.0);
+                sim.seconds(1.0);
+                let state = sim.state(who);
+                let case = format!("{hz} Hz {rule:?} along {along}");
+                found.holds(format!("{case}: on ground"), state.on_ground());
+                found.at_least(format!("{case}: over"), sim.position(who).z, 3.5);
+                found.near(
+                    format!("{case}: sideways"),
+                    state.velocity.x,
+                    if along { 0.0 } else { x },
+                    0.02,
+                );
+                // Along the ground the length of the velocity is kept, so only the heading counts.
+                found.at_least(format!("{case}: ahead"), state.velocity.z, 1.5);
+            }
+        }
+    }
+}

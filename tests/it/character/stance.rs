@@ -340,3 +340,40 @@ fn every_shape_crouches() {
         }
     }
 }
+
+#[test]
+fn the_speed_goes_with_the_height_whichever_way_it_was_reached() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for before in [Stance::Stand, Stance::Crouch] {
+            for (stance, sprint, speed) in [
+                (Stance::Stand, false, 5.0),
+                (Stance::Stand, true, 8.0),
+                (Stance::Height(1.8), false, 5.0),
+                (Stance::Height(1.8), true, 8.0),
+                (Stance::Height(1.4), false, 3.75),
+                (Stance::Height(1.4), true, 5.25),
+                (Stance::Crouch, false, 2.5),
+                (Stance::Crouch, true, 2.5),
+                (Stance::Height(0.7), false, 2.5),
+            ] {
+                let mut sim = Sim::new(hz);
+                sim.floor(0.0);
+                let who = runner(&mut sim, Vec3::ZERO);
+                set_stance(&mut sim, who, before);
+                sim.seconds(0.2);
+                set_stance(&mut sim, who, stance);
+                sim.intent(who, |intent| intent.sprint = sprint);
+                sim.seconds(0.2);
+                sim.walk(who, Vec3::X);
+                sim.seconds(1.0);
+                found.within(
+                    format!("{hz} Hz {before:?} {stance:?} sprint {sprint}"),
+                    sim.position(who).x,
+                    speed,
+                    0.001,
+                );
+            }
+        }
+    }
+}

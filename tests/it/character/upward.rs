@@ -307,3 +307,91 @@ fn up_along_the_ground_walks_from_the_floor_up_the_wall() {
         found.at_most(format!("{hz} Hz: up leans"), sim.state(who).up.y, 0.45);
     }
 }
+
+#[test]
+fn who_is_spawned_anywhere_on_a_planet_stands_there_at_once() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for out in [Vec3::NEG_Y, Vec3::X, Vec3::new(0.5, -0.7, 0.4).normalize()] {
+            for shape in [Character::default(), Character::cuboid(0.6, 1.8, 0.4)] {
+                let mut sim = Sim::new(hz);
+                sim.fixed(Collider::ball(10.0), Transform::IDENTITY);
+                let who = sim.spawn((
+                    shape,
+                    CharacterMotor {
+                        gravity: Some(G),
+                        ..prompt()
+                    },
+                    CharacterUp {
+                        direction: UpDirection::AwayFrom(Vec3::ZERO),
+                        ..default()
+                    },
+                    Transform::from_translation(out * 10.0)
+                        .with_rotation(Quat::from_rotation_arc(Vec3::Y, out)),
+                ));
+                sim.ticks(1);
+                let case = format!("{hz} Hz {out}");
+                found.at_most(format!("{case}: up"), sim.state(who).up.distance(out), 1e-3);
+                let mut off = 0.0f32;
+                for _ in 0..hz as usize {
+                    sim.ticks(1);
+                    off = off.max(sim.position(who).distance(out * 10.0));
+                }
+                found.at_most(format!("{case}: moved"), off, 0.01);
+                found.holds(format!("{case}: stands"), sim.state(who).on_ground());
+                // A respawn on another side is as sudden.
+                insert(
+                    &mut sim,
+                    who,
+                    (
+                        CharacterState::default(),
+                        Transform::from_translation(out * -10.0),
+                    ),
+                );
+                sim.ticks(1);
+                found.at_most(
+                    format!("{case}: up after a respawn"),
+                    sim.state(who).up.distance(-out),
+                    1e-3,
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn without_a_direction_of_its_own_the_first_up_is_that_of_the_transform() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        // A wall at x = 0 that is a floor to who stands out from it.
+        sim.block(Vec3::new(-0.5, 0.0, 0.0), Vec3::new(1.0, 50.0, 50.0));
+        let out = Quat::from_rotation_arc(Vec3::Y, Vec3::X);
+        let who = sim.spawn((
+            Character::default(),
+            CharacterMotor {
+                gravity: Some(G),
+                ..prompt()
+            },
+            CharacterUp {
+                direction: UpDirection::Ground,
+                ..default()
+            },
+            Transform::from_xyz(0.2, 0.0, 0.0).with_rotation(out),
+        ));
+        sim.seconds(1.0);
+        found.holds(format!("{hz} Hz: stands"), sim.state(who).on_ground());
+        found.near(
+            format!("{hz} Hz: on the wall"),
+            sim.position(who).x,
+            0.0,
+            0.001,
+        );
+        found.near(
+            format!("{hz} Hz: not fallen"),
+            sim.position(who).y,
+            0.0,
+            0.001,
+        );
+    }
+}

@@ -235,3 +235,248 @@ fn a_ladder_is_climbed_down_to_the_floor_and_jumped_off() {
         );
     }
 }
+
+/// Sensors that mean nothing to a character, around a place.
+fn other_sensors(sim: &mut Sim, at: Vec3) {
+    for size in [2.0, 30.0] {
+        sim.spawn((
+            Collider::cuboid(size, size, size),
+            Sensor,
+            Transform::from_translation(at),
+        ));
+    }
+}
+
+#[test]
+fn other_sensors_about_water_or_a_ladder_change_nothing() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for first in [false, true] {
+            let case = format!("{hz} Hz, others first {first}");
+            let mut sim = Sim::new(hz);
+            let at = Vec3::new(0.0, -2.0, 0.0);
+            if first {
+                other_sensors(&mut sim, at);
+            }
+            pool(&mut sim, Vec3::ZERO);
+            if !first {
+                other_sensors(&mut sim, at);
+            }
+            let who = runner(&mut sim, at);
+            sim.seconds(0.5);
+            found.holds(
+                format!("{case}: swims"),
+                sim.state(who).mode == MovementMode::Swim,
+            );
+
+            let mut sim = Sim::new(hz);
+            let at = Vec3::new(-0.32, 2.0, 0.0);
+            if first {
+                other_sensors(&mut sim, at);
+            }
+            ladder(&mut sim);
+            if !first {
+                other_sensors(&mut sim, at);
+            }
+            let who = runner(&mut sim, Vec3::new(-2.0, 0.0, 0.0));
+            sim.seconds(0.3);
+            sim.walk(who, Vec3::X);
+            sim.seconds(1.0);
+            found.holds(
+                format!("{case}: climbs"),
+                sim.state(who).mode == MovementMode::Climb,
+            );
+        }
+    }
+}
+
+#[test]
+fn a_ladder_in_a_pool_is_climbed_by_who_swims_to_it() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for ladder_first in [false, true] {
+            let mut sim = Sim::new(hz);
+            let ladder = (
+                Collider::cuboid(0.4, 2.5, 0.5),
+                Sensor,
+                Ladder,
+                // On the rim at x = -10; the climber is on its +X side.
+                Transform::from_xyz(-9.6, -1.7, 0.0)
+                    .with_rotation(Quat::from_rotation_y(core::f32::consts::FRAC_PI_2)),
+            );
+            if ladder_first {
+                sim.spawn(ladder.clone());
+            }
+            pool(&mut sim, Vec3::ZERO);
+            if !ladder_first {
+                sim.spawn(ladder);
+            }
+            let who = runner(&mut sim, Vec3::new(-7.0, -2.0, 0.0));
+            let case = format!("{hz} Hz, ladder first {ladder_first}");
+            sim.seconds(0.5);
+            found.holds(
+                format!("{case}: swims"),
+                sim.state(who).mode == MovementMode::Swim,
+            );
+            sim.walk(who, Vec3::NEG_X);
+            sim.seconds(1.0);
+            found.holds(
+                format!("{case}: climbs"),
+                sim.state(who).mode == MovementMode::Climb,
+            );
+            sim.seconds(2.5);
+            found.near(format!("{case}: out"), sim.position(who).y, 0.0, 0.01);
+            found.at_most(format!("{case}: on the rim"), sim.position(who).x, -10.0);
+        }
+    }
+}
+
+#[test]
+fn who_stands_on_the_bottom_swims_when_there_is_water() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        pool(&mut sim, Vec3::X * 0.5);
+        let who = runner(&mut sim, Vec3::new(0.0, -4.0, 0.0));
+        sim.seconds(1.0);
+        found.holds(
+            format!("{hz} Hz: spawned on the bottom"),
+            sim.state(who).mode == MovementMode::Swim,
+        );
+        found.at_least(
+            format!("{hz} Hz: goes with the flow"),
+            sim.position(who).x,
+            0.3,
+        );
+
+        // A flood that rises over somebody who rests.
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let who = runner(&mut sim, Vec3::ZERO);
+        sim.seconds(1.0);
+        let path = sim.moving(|t| Transform::from_xyz(0.0, -2.5 + (0.5 * t).min(2.0) as f32, 0.0));
+        sim.spawn((
+            RigidBody::KinematicPositionBased,
+            Collider::cuboid(20.0, 2.0, 20.0),
+            Sensor,
+            WaterVolume {
+                flow: Vec3::Z * 0.5,
+            },
+            Transform::from_xyz(0.0, -2.5, 0.0),
+            path,
+        ));
+        sim.seconds(1.0);
+        found.holds(
+            format!("{hz} Hz: wades"),
+            sim.state(who).mode == MovementMode::Walk,
+        );
+        sim.seconds(5.0);
+        found.holds(
+            format!("{hz} Hz: flooded"),
+            sim.state(who).mode == MovementMode::Swim,
+        );
+        found.at_least(format!("{hz} Hz: carried off"), sim.position(who).z, 0.3);
+
+        // Water that is declared only later.
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let basin = sim.spawn((
+            Collider::cuboid(20.0, 2.0, 20.0),
+            Sensor,
+            Transform::IDENTITY,
+        ));
+        let who = runner(&mut sim, Vec3::ZERO);
+        sim.seconds(1.0);
+        insert(&mut sim, basin, WaterVolume::default());
+        sim.ticks(3);
+        found.holds(
+            format!("{hz} Hz: declared later"),
+            sim.state(who).mode == MovementMode::Swim,
+        );
+    }
+}
+
+#[test]
+fn swimming_that_the_game_has_set_stays_until_the_game_ends_it() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let who = runner(&mut sim, Vec3::Y * 2.0);
+        sim.ticks(2);
+        edit::<CharacterState>(&mut sim, who, |state| state.mode = MovementMode::Swim);
+        sim.walk(who, Vec3::Y);
+        sim.seconds(1.0);
+        found.holds(
+            format!("{hz} Hz: swims on"),
+            sim.state(who).mode == MovementMode::Swim,
+        );
+        let start = sim.position(who).y;
+        sim.seconds(1.0);
+        found.within(
+            format!("{hz} Hz: up"),
+            sim.position(who).y - start,
+            3.0,
+            0.01,
+        );
+        edit::<CharacterState>(&mut sim, who, |state| state.mode = MovementMode::Walk);
+        sim.walk(who, Vec3::ZERO);
+        sim.seconds(3.0);
+        found.near(format!("{hz} Hz: falls"), sim.position(who).y, 0.0, 0.001);
+    }
+}
+
+#[test]
+fn a_ladder_that_moves_takes_its_climber_along() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.floor(-10.0);
+        let ladder = sim.mover(Collider::cuboid(0.2, 4.0, 1.0), |t| {
+            Transform::from_xyz((1.5 * t) as f32, 4.0, (0.5 * t) as f32)
+        });
+        let rungs = sim.spawn((
+            Collider::cuboid(0.5, 4.0, 0.5),
+            Sensor,
+            Ladder,
+            Transform::from_xyz(-0.6, 0.0, 0.0)
+                .with_rotation(Quat::from_rotation_y(-core::f32::consts::FRAC_PI_2)),
+            ChildOf(ladder),
+        ));
+        let _ = rungs;
+        let who = runner(&mut sim, Vec3::new(-0.55, 2.0, 0.0));
+        sim.walk(who, Vec3::X);
+        sim.ticks(3);
+        sim.walk(who, Vec3::ZERO);
+        sim.seconds(0.5);
+        let case = format!("{hz} Hz");
+        found.holds(
+            format!("{case}: climbs"),
+            sim.state(who).mode == MovementMode::Climb,
+        );
+        let offset = sim.position(who) - sim.position(ladder);
+        sim.seconds(2.0);
+        found.at_most(
+            format!("{case}: left behind"),
+            (sim.position(who) - sim.position(ladder)).distance(offset),
+            0.005,
+        );
+        // Up it goes at the speed of climbing, along with it.
+        sim.walk(who, Vec3::Y);
+        sim.seconds(0.4);
+        let rise = sim.position(who) - sim.position(ladder) - offset;
+        found.near(format!("{case}: climbs up"), rise.y, 1.0, 0.05);
+        found.at_most(format!("{case}: beside"), rise.with_y(0.0).length(), 0.01);
+        // Who jumps off keeps its velocity.
+        sim.walk(who, Vec3::ZERO);
+        sim.ticks(1);
+        sim.intent(who, |intent| intent.jump = true);
+        sim.ticks(1);
+        found.near(
+            format!("{case}: thrown off with it"),
+            sim.state(who).velocity.z,
+            0.5,
+            0.01,
+        );
+    }
+}
