@@ -208,17 +208,18 @@ fn follow_up(state: &mut CharacterState, wanted: Vec3, most: f32) {
     if !(angle > SAME_UP) {
         return;
     }
-    let turn = if most >= angle {
-        Quat::from_rotation_arc(state.up, wanted)
-    } else {
-        // Opposite directions have no axis of their own: any level one will do.
-        let axis = state
-            .up
-            .cross(wanted)
-            .try_normalize()
-            .unwrap_or_else(|| state.up.any_orthonormal_vector());
-        Quat::from_axis_angle(axis, most)
-    };
+    if most >= angle {
+        // Not by an arc, which is none below a thousandth of a radian.
+        state.up = wanted;
+        return;
+    }
+    // Opposite directions have no axis of their own: any level one will do.
+    let axis = state
+        .up
+        .cross(wanted)
+        .try_normalize()
+        .unwrap_or_else(|| state.up.any_orthonormal_vector());
+    let turn = Quat::from_axis_angle(axis, most);
     state.up = (turn * state.up).normalize();
 }
 
