@@ -87,8 +87,8 @@ pub(crate) enum Verdict {
     Skip,
     /// A body that neither pushes nor is pushed.
     Wall,
-    /// Another character, thicker than its collider by this much.
-    Character(f32),
+    /// Another character: thicker than its collider by `skin`, on a way of at most `way` this tick.
+    Character { skin: f32, way: f32 },
 }
 
 /// A collider that carries somebody.
@@ -197,11 +197,13 @@ impl<'a> PhysicsView<'a> {
             restitution: collider.restitution(),
             skin: 0.0,
         };
+        let mut ahead = 0.0;
         match verdict {
             Verdict::Skip => return,
-            Verdict::Character(skin) => {
+            Verdict::Character { skin, way } => {
                 obstacle.kind = ObstacleKind::Character;
                 obstacle.skin = skin;
+                ahead = way;
             }
             Verdict::AsIs | Verdict::Wall => {
                 if let Some(body) = body {
@@ -213,6 +215,7 @@ impl<'a> PhysicsView<'a> {
             }
         }
         let slack = obstacle.skin
+            + ahead
             + if obstacle.motion.is_none() {
                 0.0
             } else {
@@ -221,7 +224,8 @@ impl<'a> PhysicsView<'a> {
                 let reach = (request.high - request.low).length() * 0.5;
                 obstacle.motion.reach(middle, reach)
             };
-        out.slack = out.slack.max(slack);
+        // Where a character will be is shared out later; until then it stands.
+        out.slack = out.slack.max(slack - ahead);
         let index = out.obstacles.len() as u32;
         out.obstacles.push(obstacle);
         let pieces = out.pieces.len();
@@ -400,6 +404,30 @@ impl PhysicsWorldsMut<'_, '_> {
                 Some(node) => node.aabb().merged(&aabb),
                 None => aabb,
             };
+            simulation
+                .broad_phase
+                .set_aabb(&simulation.integration_parameters, handle.0, aabb);
+        }
+    }
+
+    /// Widens a collider's place in the search tree by the way that it goes this tick.
+    pub fn look_ahead(
+        &mut self,
+        handle: &RapierColliderHandle,
+        link: &RapierContextEntityLink,
+        way: Vec3,
+    ) {
+        let Ok((mut simulation, colliders, _)) = self.contexts.get_mut(link.0) else {
+            return;
+        };
+        let Some(collider) = colliders.colliders.get(handle.0) else {
+            return;
+        };
+        let here = collider.compute_aabb();
+        let there = Aabb::new(here.mins + way, here.maxs + way);
+        let aabb = here.merged(&there);
+        if aabb.mins.is_finite() && aabb.maxs.is_finite() {
+            let simulation = &mut *simulation;
             simulation
                 .broad_phase
                 .set_aabb(&simulation.integration_parameters, handle.0, aabb);

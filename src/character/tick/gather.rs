@@ -8,6 +8,9 @@ use crate::{
     character::solver::Solver,
 };
 
+/// Part of a motion past another character that may be turned towards it.
+const ASIDE: f32 = 0.5;
+
 impl Tick<'_, '_, '_, '_> {
     pub(super) fn gather(
         &self,
@@ -113,13 +116,21 @@ impl Tick<'_, '_, '_, '_> {
             let Ok(other) = self.around.others.get(obstacle.body) else {
                 continue;
             };
-            let mine = (-piece.normal.dot(displacement)).max(0.0);
-            let theirs = (piece.normal.dot(other.velocity) * self.around.dt).max(0.0);
+            let mine = approach(displacement, -piece.normal);
+            let theirs = approach(other.velocity * self.around.dt, piece.normal);
             let gap = piece.clearance - obstacle.skin;
-            if mine > 0.0 && theirs > 0.0 && gap > 0.0 {
+            if mine + theirs > gap && theirs > 0.0 && gap > 0.0 {
                 obstacle.skin += gap * theirs / (mine + theirs);
                 near.slack = near.slack.max(obstacle.skin);
             }
         }
     }
+}
+
+/// How far a displacement may lead along `n`: what it wants, and half of what goes aside, which a
+/// third character may turn that way. Who goes away does not come near.
+fn approach(displacement: Vec3, n: Vec3) -> f32 {
+    let along = displacement.dot(n);
+    let aside = (displacement - n * along).length();
+    (along + ASIDE * aside).max(0.0)
 }

@@ -49,7 +49,10 @@ impl Surroundings<'_, '_, '_> {
         {
             Verdict::Skip
         } else if let Ok(other) = self.others.get(body) {
-            Verdict::Character(other.margin)
+            Verdict::Character {
+                skin: other.margin,
+                way: other.velocity.length() * self.dt,
+            }
         } else if self.walls.contains(body) || self.walls.contains(collider) {
             Verdict::Wall
         } else {
