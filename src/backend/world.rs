@@ -99,6 +99,8 @@ pub(crate) struct Carrier {
     pub end: WorldPose,
     /// Mass of its body, kilograms; infinite when it moves as it wills.
     pub mass: f32,
+    /// Whether its body is one that a weight would move.
+    pub awake: bool,
 }
 
 impl<'a> PhysicsView<'a> {
@@ -130,6 +132,7 @@ impl<'a> PhysicsView<'a> {
             mass: body
                 .filter(|b| b.is_dynamic())
                 .map_or(f32::INFINITY, RigidBody::mass),
+            awake: body.is_some_and(|b| b.is_dynamic() && !b.is_sleeping()),
         })
     }
 

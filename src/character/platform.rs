@@ -54,7 +54,11 @@ pub(super) fn carry(
     let still = carrier.end == held && carrier.now == held;
     let on_belt = surface != SurfaceVelocity::default();
     if still && !on_belt {
-        return Carry::default();
+        return Carry {
+            // It would rise if the weight on it were left out.
+            moving: carrier.awake,
+            ..default()
+        };
     }
     let foot = position.as_dvec3() + state.residual.as_dvec3();
     let mut displacement = DVec3::ZERO;
@@ -147,6 +151,7 @@ mod tests {
                     now,
                     end,
                     mass: f32::INFINITY,
+                    awake: false,
                 }),
                 &anchor,
                 SurfaceVelocity::default(),

@@ -58,6 +58,8 @@ pub struct CharacterState {
     pub crushed: bool,
     /// What a camera adds to the position to see steps as ramps, world axes, metres.
     pub view_offset: Vec3,
+    /// Force with which it weighs on the dynamic body that it stands on, newtons.
+    pub weight: f32,
     /// Pose that the last tick ended with, to tell a teleport from a motion: position.
     pub last_position: Vec3,
     /// Pose that the last tick ended with, to tell a teleport from a motion: rotation.
@@ -86,6 +88,7 @@ impl Default for CharacterState {
             overlapping: false,
             crushed: false,
             view_offset: Vec3::ZERO,
+            weight: 0.0,
             last_position: Vec3::NAN,
             last_rotation: Quat::IDENTITY,
         }

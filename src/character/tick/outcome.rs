@@ -111,7 +111,7 @@ impl Tick<'_, '_, '_, '_> {
         if on_ground {
             self.state.jumping = false;
         }
-        self.state.ground = ground;
+        let stood_on = core::mem::replace(&mut self.state.ground, ground);
         self.state.volume = solver.near.volumes.iter().copied().min();
 
         // What the slope does not explain is a step, up or down.
@@ -121,7 +121,7 @@ impl Tick<'_, '_, '_, '_> {
             0.0
         };
         self.note_step(solver, climbed, snapped, rise);
-        self.weigh(solver, &support, was_on_ground, origin);
+        self.weigh(solver, &support, &stood_on, origin);
         self.note_contacts(solver, origin);
     }
 
@@ -196,7 +196,8 @@ impl Tick<'_, '_, '_, '_> {
     }
 
     /// Collects the impulses for bodies: pushes, and the weight on what carries.
-    fn weigh(&mut self, solver: &Solver, support: &Support, was_on_ground: bool, origin: Vec3) {
+    fn weigh(&mut self, solver: &Solver, support: &Support, stood_on: &Ground, origin: Vec3) {
+        let known = core::mem::take(&mut self.state.weight);
         self.report.impulses.clear();
         self.report.impulses.reserve(8);
         for i in solver.impulses.iter() {
@@ -215,18 +216,32 @@ impl Tick<'_, '_, '_, '_> {
             return;
         };
         let obstacle = &solver.near.obstacles[index as usize];
-        if obstacle.dynamics.is_none() || obstacle.kind != ObstacleKind::Dynamic {
+        let Some(body) = obstacle
+            .dynamics
+            .filter(|_| obstacle.kind == ObstacleKind::Dynamic)
+        else {
             return;
-        }
+        };
         let gravity = self
             .motor
             .gravity
             .unwrap_or(self.around.view.gravity.length())
             * self.motor.gravity_scale;
+        let (up, mass) = (self.state.up, self.config.mass);
+        let full = mass * gravity;
+        let was_on_ground = stood_on.state == GroundState::OnGround;
+        self.state.weight = if was_on_ground && stood_on.entity == Some(obstacle.entity) {
+            let now = self.state.ground.velocity;
+            let acceleration = (now - stood_on.velocity).dot(up) / self.around.dt;
+            let share = mass / body.effective_mass(support.point, up);
+            ease_weight(known, full, mass * acceleration, share)
+        } else {
+            full
+        };
         self.report.impulses.push(BodyImpulse {
             body: obstacle.body,
             impulse: Vec3::ZERO,
-            force: -self.state.up * (self.config.mass * gravity),
+            force: -up * self.state.weight,
             point: origin + support.point,
             wake: !was_on_ground || self.report.woken,
         });
@@ -296,6 +311,17 @@ impl Tick<'_, '_, '_, '_> {
             }
         }
     }
+}
+
+/// The weight on ground that accelerates: `full` and `inertia` (mass times the ground's acceleration
+/// upwards) in newtons, `share` the mass over the mass that the ground opposes.
+///
+/// Ground that falls away is pressed less, ground that lifts more. The acceleration seen is the one
+/// that the last weight made, so the new one is approached by a part that keeps the loop stable for
+/// every ratio of the masses; at rest and in steady acceleration it is exact.
+fn ease_weight(last: f32, full: f32, inertia: f32, share: f32) -> f32 {
+    let wanted = (full + inertia).clamp(0.0, 1.5 * full);
+    last + (wanted - last) * 0.5 / (1.0 + share)
 }
 
 /// Velocity of the ground at the point of support, without conveyors.
