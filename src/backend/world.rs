@@ -85,8 +85,8 @@ pub(crate) enum Verdict {
     AsIs,
     /// Leave it out.
     Skip,
-    /// A body that neither pushes nor is pushed.
-    Wall,
+    /// A body that is not pushed, and whether it pushes where it goes.
+    Wall { pushes: bool },
     /// Another character: thicker than its collider by `skin`, on a way of at most `way` this tick.
     Character { skin: f32, way: f32 },
 }
@@ -169,8 +169,7 @@ impl<'a> PhysicsView<'a> {
             if collider.is_sensor() {
                 let probe = request.origin + request.probe;
                 if collider.shape().contains_point(collider.position(), probe) {
-                    out.volumes
-                        .push(RapierContextColliders::entity_from_collider(collider));
+                    out.volumes.push(entity_of(collider.user_data));
                 }
                 continue;
             }
@@ -186,9 +185,9 @@ impl<'a> PhysicsView<'a> {
         judge: &impl Fn(Entity, Entity) -> Verdict,
         out: &mut Neighbourhood,
     ) {
-        let entity = RapierContextColliders::entity_from_collider(collider);
+        let entity = entity_of(collider.user_data);
         let body = collider.parent().and_then(|h| self.bodies.bodies.get(h));
-        let body_entity = body.map_or(entity, |b| Entity::from_bits(b.user_data as u64));
+        let body_entity = body.map_or(entity, |b| entity_of(b.user_data));
         let verdict = judge(entity, body_entity);
         let mut obstacle = Obstacle {
             entity,
@@ -208,11 +207,17 @@ impl<'a> PhysicsView<'a> {
                 obstacle.skin = skin;
                 ahead = way;
             }
-            Verdict::AsIs | Verdict::Wall => {
+            Verdict::AsIs | Verdict::Wall { .. } => {
                 if let Some(body) = body {
                     describe_motion(&mut obstacle, body, request.origin, dt);
-                    if matches!(verdict, Verdict::Wall) && obstacle.kind == ObstacleKind::Dynamic {
+                    if let Verdict::Wall { pushes } = verdict
+                        && obstacle.kind == ObstacleKind::Dynamic
+                    {
                         obstacle.dynamics = None;
+                        if pushes {
+                            // A wall goes where it goes, as one that moves as it wills.
+                            obstacle.kind = ObstacleKind::Kinematic;
+                        }
                     }
                 }
             }
@@ -243,6 +248,11 @@ impl<'a> PhysicsView<'a> {
             out.obstacles.pop();
         }
     }
+}
+
+/// The entity of a body or collider; of one that the game put into Rapier itself, none that exists.
+fn entity_of(user_data: u128) -> Entity {
+    Entity::try_from_bits(user_data as u64).unwrap_or(Entity::PLACEHOLDER)
 }
 
 /// The pose of a body at the end of the tick, or `None` when it does not move.
@@ -354,7 +364,7 @@ impl PhysicsWorldsMut<'_, '_> {
                 let Some(body) = bodies.bodies.get(handle) else {
                     continue;
                 };
-                if !body.is_enabled() || is_own(Entity::from_bits(body.user_data as u64)) {
+                if !body.is_enabled() || is_own(entity_of(body.user_data)) {
                     continue;
                 }
                 let Some(end) = end_of_tick(body, dt) else {
@@ -390,7 +400,16 @@ impl PhysicsWorldsMut<'_, '_> {
             let Some(collider) = colliders.colliders.get(handle.0) else {
                 continue;
             };
-            let aabb = collider.compute_aabb();
+            // What starts to move in this tick is not among the active bodies yet.
+            let end = collider
+                .parent()
+                .and_then(|body| bodies.bodies.get(body))
+                .and_then(|body| end_of_tick(body, dt))
+                .zip(collider.position_wrt_parent());
+            let aabb = match end {
+                Some((end, local)) => collider.compute_swept_aabb(&(end * *local)),
+                None => collider.compute_aabb(),
+            };
             if !collider.is_enabled() || !aabb.mins.is_finite() || !aabb.maxs.is_finite() {
                 continue;
             }

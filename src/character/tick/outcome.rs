@@ -46,7 +46,7 @@ impl Tick<'_, '_, '_, '_> {
         if self.carry.turn != 0.0 && was_on_ground && self.config.turn_with_platform {
             velocity = Quat::from_axis_angle(up, self.carry.turn) * velocity;
         }
-        let carried = self.carry.displacement / dt;
+        let carried = self.carry.velocity;
         let ground = self.ground(solver, &support, origin);
         let on_ground = support.state == GroundState::OnGround;
         self.state.velocity = velocity;
@@ -122,7 +122,7 @@ impl Tick<'_, '_, '_, '_> {
         };
         self.note_step(solver, climbed, snapped, rise);
         self.weigh(solver, &support, &stood_on, origin);
-        self.note_contacts(solver, origin);
+        self.note_contacts(solver, p, origin);
     }
 
     /// The ground as the state tells it.
@@ -247,7 +247,9 @@ impl Tick<'_, '_, '_, '_> {
         });
     }
 
-    fn note_contacts(&mut self, solver: &mut Solver, origin: Vec3) {
+    fn note_contacts(&mut self, solver: &mut Solver, p: Vec3, origin: Vec3) {
+        // A look at another place, for a step or for growing, may have been the last.
+        solver.touch_at_end(p);
         let contacts = &mut self.contacts.contacts;
         contacts.clear();
         // Room for more than a usual tick needs, so that later ticks need no memory.
@@ -294,7 +296,7 @@ impl Tick<'_, '_, '_, '_> {
                 });
             }
         }
-        for touch in solver.touches_now() {
+        for touch in solver.touches() {
             let entity = solver.near.obstacles[touch.obstacle as usize].entity;
             let known = contacts
                 .iter()

@@ -38,7 +38,8 @@ pub(in crate::character) struct Surroundings<'a, 'w, 's> {
 }
 
 impl Surroundings<'_, '_, '_> {
-    pub fn judge(&self, collider: Entity, body: Entity) -> Verdict {
+    /// What a collider is to the character; `pushes` tells whether bodies push it.
+    pub fn judge(&self, collider: Entity, body: Entity, pushes: bool) -> Verdict {
         if body == self.entity
             || self
                 .ignores
@@ -54,7 +55,7 @@ impl Surroundings<'_, '_, '_> {
                 way: other.velocity.length() * self.dt,
             }
         } else if self.walls.contains(body) || self.walls.contains(collider) {
-            Verdict::Wall
+            Verdict::Wall { pushes }
         } else {
             Verdict::AsIs
         }

@@ -510,3 +510,93 @@ fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
         );
     }
 }
+
+#[test]
+fn a_crate_of_two_halves_is_pushed_like_a_whole_one() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let run = |halves: bool| {
+            let mut sim = Sim::new(hz);
+            let floor = sim.floor(0.0);
+            insert(&mut sim, floor, Friction::coefficient(0.0));
+            let body = sim.spawn((
+                RigidBody::Dynamic,
+                Transform::from_xyz(1.0, 0.5, 0.0),
+                LockedAxes::ROTATION_LOCKED,
+                Velocity::default(),
+            ));
+            // The pusher meets the seam at z = 0.
+            let parts = if halves {
+                vec![(0.25, -0.25), (0.25, 0.25)]
+            } else {
+                vec![(0.5, 0.0)]
+            };
+            for (half, z) in parts {
+                sim.spawn((
+                    Collider::cuboid(0.5, 0.5, half),
+                    ColliderMassProperties::Mass(400.0 * half),
+                    Friction::coefficient(0.0),
+                    Transform::from_xyz(0.0, 0.0, z),
+                    ChildOf(body),
+                ));
+            }
+            let pusher = runner(&mut sim, Vec3::ZERO);
+            sim.seconds(0.3);
+            sim.walk(pusher, Vec3::X);
+            sim.seconds(0.5);
+            sim.get::<Velocity>(body).linear.x
+        };
+        let (whole, halves) = (run(false), run(true));
+        found.at_least(format!("{hz} Hz: moves"), whole, 0.3);
+        found.within(format!("{hz} Hz: halves"), halves, whole, 0.02);
+    }
+}
+
+#[test]
+fn a_body_that_cannot_be_pushed_pushes_like_a_wall() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for pushed in [true, false] {
+            let mut sim = Sim::new(hz);
+            let floor = sim.floor(0.0);
+            insert(&mut sim, floor, Friction::coefficient(0.0));
+            let block = sim.dynamic(
+                Collider::cuboid(0.5, 0.5, 0.5),
+                Transform::from_xyz(-2.0, 0.55, 0.0),
+                20.0,
+            );
+            insert(
+                &mut sim,
+                block,
+                (
+                    Velocity::linear(Vec3::X * 2.0),
+                    GravityScale(0.0),
+                    LockedAxes::ROTATION_LOCKED,
+                    NotPushable,
+                ),
+            );
+            let idler = runner_with(
+                &mut sim,
+                Character {
+                    pushed_by_bodies: pushed,
+                    ..default()
+                },
+                Vec3::ZERO,
+            );
+            sim.seconds(2.0);
+            let case = format!("{hz} Hz pushed {pushed}");
+            if pushed {
+                let gap = sim.position(idler).x - sim.position(block).x;
+                found.near(format!("{case}: pushed ahead"), gap, 0.8, 0.02);
+                found.near(
+                    format!("{case}: block goes on"),
+                    sim.position(block).x,
+                    2.0,
+                    0.05,
+                );
+            } else {
+                found.near(format!("{case}: stays"), sim.position(idler).x, 0.0, 0.02);
+            }
+        }
+    }
+}
