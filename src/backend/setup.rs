@@ -13,7 +13,10 @@ use bevy_rapier3d::{
     prelude::*,
 };
 
-use super::checks::{EmbodyDiagnosis, EmbodyProblem};
+use super::{
+    checks::{EmbodyDiagnosis, EmbodyProblem},
+    hierarchy,
+};
 
 /// The step length that was last written to [`TimestepMode`], seconds: another value there was
 /// written by someone else.
@@ -52,6 +55,7 @@ pub(crate) fn add_physics(app: &mut App) {
                 .after(systems::update_character_controls)
                 .before(RapierTransformPropagateSet),
         );
+        hierarchy::add_mending(app, schedule);
     }
 }
 

@@ -85,10 +85,10 @@ pub(crate) enum Verdict {
     AsIs,
     /// Leave it out.
     Skip,
-    /// A body that neither pushes nor is pushed.
-    Wall,
-    /// Another character, thicker than its collider by this much.
-    Character(f32),
+    /// A body that is not pushed, and whether it pushes where it goes.
+    Wall { pushes: bool },
+    /// Another character: thicker than its collider by `skin`, on a way of at most `way` this tick.
+    Character { skin: f32, way: f32 },
 }
 
 /// A collider that carries somebody.
@@ -99,6 +99,8 @@ pub(crate) struct Carrier {
     pub end: WorldPose,
     /// Mass of its body, kilograms; infinite when it moves as it wills.
     pub mass: f32,
+    /// Whether its body is one that a weight would move.
+    pub awake: bool,
 }
 
 impl<'a> PhysicsView<'a> {
@@ -134,6 +136,7 @@ impl<'a> PhysicsView<'a> {
             mass: body
                 .filter(|b| b.is_dynamic())
                 .map_or(f32::INFINITY, RigidBody::mass),
+            awake: body.is_some_and(|b| b.is_dynamic() && !b.is_sleeping()),
         })
     }
 
@@ -189,8 +192,7 @@ impl<'a> PhysicsView<'a> {
             if collider.is_sensor() {
                 let probe = request.origin + request.probe;
                 if collider.shape().contains_point(collider.position(), probe) {
-                    out.volumes
-                        .push(RapierContextColliders::entity_from_collider(collider));
+                    out.volumes.push(entity_of(collider.user_data));
                 }
                 continue;
             }
@@ -206,9 +208,9 @@ impl<'a> PhysicsView<'a> {
         judge: &impl Fn(Entity, Entity) -> Verdict,
         out: &mut Neighbourhood,
     ) {
-        let entity = RapierContextColliders::entity_from_collider(collider);
+        let entity = entity_of(collider.user_data);
         let body = collider.parent().and_then(|h| self.bodies.bodies.get(h));
-        let body_entity = body.map_or(entity, |b| Entity::from_bits(b.user_data as u64));
+        let body_entity = body.map_or(entity, |b| entity_of(b.user_data));
         let verdict = judge(entity, body_entity);
         let mut obstacle = Obstacle {
             entity,
@@ -220,22 +222,31 @@ impl<'a> PhysicsView<'a> {
             restitution: collider.restitution(),
             skin: 0.0,
         };
+        let mut ahead = 0.0;
         match verdict {
             Verdict::Skip => return,
-            Verdict::Character(skin) => {
+            Verdict::Character { skin, way } => {
                 obstacle.kind = ObstacleKind::Character;
                 obstacle.skin = skin;
+                ahead = way;
             }
-            Verdict::AsIs | Verdict::Wall => {
+            Verdict::AsIs | Verdict::Wall { .. } => {
                 if let Some(body) = body {
                     describe_motion(&mut obstacle, body, request.origin, dt);
-                    if matches!(verdict, Verdict::Wall) && obstacle.kind == ObstacleKind::Dynamic {
+                    if let Verdict::Wall { pushes } = verdict
+                        && obstacle.kind == ObstacleKind::Dynamic
+                    {
                         obstacle.dynamics = None;
+                        if pushes {
+                            // A wall goes where it goes, as one that moves as it wills.
+                            obstacle.kind = ObstacleKind::Kinematic;
+                        }
                     }
                 }
             }
         }
         let slack = obstacle.skin
+            + ahead
             + if obstacle.motion.is_none() {
                 0.0
             } else {
@@ -244,7 +255,8 @@ impl<'a> PhysicsView<'a> {
                 let reach = (request.high - request.low).length() * 0.5;
                 obstacle.motion.reach(middle, reach)
             };
-        out.slack = out.slack.max(slack);
+        // Where a character will be is shared out later; until then it stands.
+        out.slack = out.slack.max(slack - ahead);
         let index = out.obstacles.len() as u32;
         out.obstacles.push(obstacle);
         let pieces = out.pieces.len();
@@ -259,6 +271,11 @@ impl<'a> PhysicsView<'a> {
             out.obstacles.pop();
         }
     }
+}
+
+/// The entity of a body or collider; of one that the game put into Rapier itself, none that exists.
+fn entity_of(user_data: u128) -> Entity {
+    Entity::try_from_bits(user_data as u64).unwrap_or(Entity::PLACEHOLDER)
 }
 
 /// The pose of a body at the end of the tick, or `None` when it does not move.
@@ -370,7 +387,7 @@ impl PhysicsWorldsMut<'_, '_> {
                 let Some(body) = bodies.bodies.get(handle) else {
                     continue;
                 };
-                if !body.is_enabled() || is_own(Entity::from_bits(body.user_data as u64)) {
+                if !body.is_enabled() || is_own(entity_of(body.user_data)) {
                     continue;
                 }
                 let Some(end) = end_of_tick(body, dt) else {
@@ -406,7 +423,16 @@ impl PhysicsWorldsMut<'_, '_> {
             let Some(collider) = colliders.colliders.get(handle.0) else {
                 continue;
             };
-            let aabb = collider.compute_aabb();
+            // What starts to move in this tick is not among the active bodies yet.
+            let end = collider
+                .parent()
+                .and_then(|body| bodies.bodies.get(body))
+                .and_then(|body| end_of_tick(body, dt))
+                .zip(collider.position_wrt_parent());
+            let aabb = match end {
+                Some((end, local)) => collider.compute_swept_aabb(&(end * *local)),
+                None => collider.compute_aabb(),
+            };
             if !collider.is_enabled() || !aabb.mins.is_finite() || !aabb.maxs.is_finite() {
                 continue;
             }
@@ -423,6 +449,30 @@ impl PhysicsWorldsMut<'_, '_> {
                 Some(node) => node.aabb().merged(&aabb),
                 None => aabb,
             };
+            simulation
+                .broad_phase
+                .set_aabb(&simulation.integration_parameters, handle.0, aabb);
+        }
+    }
+
+    /// Widens a collider's place in the search tree by the way that it goes this tick.
+    pub fn look_ahead(
+        &mut self,
+        handle: &RapierColliderHandle,
+        link: &RapierContextEntityLink,
+        way: Vec3,
+    ) {
+        let Ok((mut simulation, colliders, _)) = self.contexts.get_mut(link.0) else {
+            return;
+        };
+        let Some(collider) = colliders.colliders.get(handle.0) else {
+            return;
+        };
+        let here = collider.compute_aabb();
+        let there = Aabb::new(here.mins + way, here.maxs + way);
+        let aabb = here.merged(&there);
+        if aabb.mins.is_finite() && aabb.maxs.is_finite() {
+            let simulation = &mut *simulation;
             simulation
                 .broad_phase
                 .set_aabb(&simulation.integration_parameters, handle.0, aabb);

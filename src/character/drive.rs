@@ -52,7 +52,13 @@ pub(super) fn refresh_world(
         (Touched, Without<Character>),
     >,
     own: Query<(), With<Character>>,
-    moving: Query<(&CharacterSnapshot, &CharacterBody, &GlobalTransform)>,
+    moving: Query<(
+        &CharacterSnapshot,
+        &CharacterBody,
+        &GlobalTransform,
+        &RapierColliderHandle,
+        &RapierContextEntityLink,
+    )>,
 ) {
     let dt = time.delta_secs();
     activity.clear();
@@ -62,13 +68,14 @@ pub(super) fn refresh_world(
         |entity| own.contains(entity),
         &mut activity,
     );
-    for (snapshot, body, pose) in &moving {
+    for (snapshot, body, pose, handle, link) in &moving {
         if snapshot.active
             && let Some(mover) = &body.mover
         {
             let middle = pose.translation() + pose.up() * mover.middle;
             let reach = Vec3::splat(mover.reach + snapshot.velocity.length() * dt + 0.1);
             activity.mark(middle - reach, middle + reach);
+            worlds.look_ahead(handle, link, snapshot.velocity * dt);
         }
     }
 }

@@ -24,6 +24,9 @@ const GRIP: f32 = 10.0;
 pub(super) struct Carry {
     /// Displacement of the foot, metres.
     pub displacement: Vec3,
+    /// Velocity of the ground under the foot, metres per second. Ground that is placed elsewhere
+    /// takes the foot along, but does not move.
+    pub velocity: Vec3,
     /// Turn about the rider's up, radians.
     pub turn: f32,
     pub moving: bool,
@@ -54,10 +57,15 @@ pub(super) fn carry(
     let still = carrier.end == held && carrier.now == held;
     let on_belt = surface != SurfaceVelocity::default();
     if still && !on_belt {
-        return Carry::default();
+        return Carry {
+            // It would rise if the weight on it were left out.
+            moving: carrier.awake,
+            ..default()
+        };
     }
     let foot = position.as_dvec3() + state.residual.as_dvec3();
     let mut displacement = DVec3::ZERO;
+    let mut belt = DVec3::ZERO;
     let mut turn = 0.0;
     if !still {
         let from = anchor.rotation.as_dquat();
@@ -73,10 +81,20 @@ pub(super) fn carry(
         let spin = (rotation * surface.angular).as_dvec3() * f64::from(dt);
         let arm = foot + displacement - carrier.end.position.as_dvec3();
         let around = DQuat::from_scaled_axis(spin);
-        displacement +=
-            (rotation * surface.linear).as_dvec3() * f64::from(dt) + (around * arm - arm);
+        belt = (rotation * surface.linear).as_dvec3() * f64::from(dt) + (around * arm - arm);
+        displacement += belt;
         turn += twist(around, state.up);
     }
+    let mut velocity = if carrier.now == held {
+        displacement / f64::from(dt)
+    } else {
+        let (now, end) = (carrier.now, carrier.end);
+        let back = (now.rotation.as_dquat() * end.rotation.as_dquat().inverse()).normalize();
+        let arm = foot + displacement - belt - end.position.as_dvec3();
+        let moved = (end.position - now.position).as_dvec3() + (arm - back * arm);
+        (moved + belt) / f64::from(dt)
+    }
+    .as_vec3();
     let mut displacement = displacement.as_vec3();
     if carrier.mass < mass {
         // A pebble that spins away under a foot does not take the walker with it: what is lighter
@@ -84,12 +102,14 @@ pub(super) fn carry(
         let change = displacement / dt - state.platform_velocity;
         let most = GRIP * dt;
         if change.length() > most {
-            displacement = (state.platform_velocity + change.clamp_length_max(most)) * dt;
+            velocity = state.platform_velocity + change.clamp_length_max(most);
+            displacement = velocity * dt;
             turn = 0.0;
         }
     }
     Carry {
         displacement,
+        velocity,
         turn,
         moving: true,
         lost: false,
@@ -147,6 +167,7 @@ mod tests {
                     now,
                     end,
                     mass: f32::INFINITY,
+                    awake: false,
                 }),
                 &anchor,
                 SurfaceVelocity::default(),

@@ -69,6 +69,8 @@ pub struct CharacterState {
     pub crushed: bool,
     /// What a camera adds to the position to see steps as ramps, world axes, metres.
     pub view_offset: Vec3,
+    /// Force with which it weighs on the dynamic body that it stands on, newtons.
+    pub weight: f32,
     /// Pose that the last tick ended with, to tell a teleport from a motion; `None` before the
     /// first tick.
     pub last_pose: Option<LastPose>,
@@ -98,6 +100,7 @@ impl Default for CharacterState {
             overlapping: false,
             crushed: false,
             view_offset: Vec3::ZERO,
+            weight: 0.0,
             last_pose: None,
         }
     }

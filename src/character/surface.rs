@@ -55,7 +55,8 @@ impl Default for WaterVolume {
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ladder;
 
-/// On a body: characters never push it and are never pushed by it; it is a wall to them.
+/// On a body: characters never push it and do not weigh on it. It is a wall to them, which pushes
+/// aside where it goes all that are pushed by bodies.
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]

@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::{SUPPORT, Solver, TOUCH, touch::Bend};
 use crate::{
     character::state::GroundState,
-    math::planes::{HalfSpace, nearest_yielding},
+    math::planes::{self, HalfSpace, nearest_yielding},
 };
 
 /// On an edge with level ground behind it the character stands as long as the contact points up by
@@ -93,7 +93,7 @@ impl Solver<'_> {
         // Steep walls hold together what each alone does not: would a fall get anywhere?
         self.planes.clear();
         for touch in self.touches.iter() {
-            self.planes.push(HalfSpace::new(touch.normal, 0.0, 0));
+            planes::add(self.planes, HalfSpace::new(touch.normal, 0.0, 0));
         }
         let (fall, _) = nearest_yielding(-self.up.as_dvec3(), self.planes);
         if fall.length() as f32 <= self.sin_slope {

@@ -69,6 +69,8 @@ pub(super) struct Solver<'a> {
     pub dt: f32,
     pub near: &'a mut Neighbourhood,
     touches: &'a mut Vec<Touch>,
+    /// The place and time that `touches` are of.
+    touched_at: (Vec3, f32),
     planes: &'a mut Vec<HalfSpace>,
     stops: &'a mut Vec<slide::Stop>,
     pub blockers: &'a mut Vec<Blocker>,
@@ -107,6 +109,7 @@ impl<'a> Solver<'a> {
             dt,
             near: &mut scratch.near,
             touches: &mut scratch.touches,
+            touched_at: (Vec3::NAN, 0.0),
             planes: &mut scratch.planes,
             stops: &mut scratch.stops,
             blockers: &mut scratch.blockers,

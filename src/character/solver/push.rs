@@ -67,7 +67,7 @@ impl Solver<'_> {
             || self
                 .impulses
                 .iter()
-                .any(|known| known.obstacle == touch.obstacle)
+                .any(|known| known.body == obstacle.body)
         {
             return;
         }

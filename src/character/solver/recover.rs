@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use super::{Solver, TOUCH};
 use crate::{
     backend::neighbourhood::ObstacleKind,
-    math::planes::{HalfSpace, nearest_yielding},
+    math::planes::{self, HalfSpace, nearest_yielding},
 };
 
 impl Solver<'_> {
@@ -41,11 +41,10 @@ impl Solver<'_> {
                     mass / (mass + self.config.mass)
                 }),
             };
-            self.planes.push(HalfSpace::new(
-                touch.normal,
-                (depth * share).min(most),
-                obstacle.kind as u8,
-            ));
+            planes::add(
+                self.planes,
+                HalfSpace::new(touch.normal, (depth * share).min(most), obstacle.kind as u8),
+            );
         }
         let (x, _) = nearest_yielding(bevy::math::DVec3::ZERO, self.planes);
         let x = x.as_vec3().clamp_length_max(most);
@@ -77,8 +76,15 @@ impl Solver<'_> {
         Some((by.obstacle, against, -by.distance))
     }
 
+    /// Looks at what is touched at `p` when the tick has passed, unless that was the last look.
+    pub fn touch_at_end(&mut self, p: Vec3) {
+        if self.touched_at != (p, 1.0) {
+            self.touch(p, 1.0, super::SUPPORT);
+        }
+    }
+
     /// What was touched at the last place looked at.
-    pub fn touches_now(&self) -> &[super::Touch] {
+    pub fn touches(&self) -> &[super::Touch] {
         self.touches
     }
 }

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     backend::neighbourhood::{Geometry, ObstacleKind},
     character::config::SlopeSpeed,
-    math::planes::{HalfSpace, nearest_yielding},
+    math::planes::{self, HalfSpace, nearest_yielding},
 };
 
 /// Most sweeps in one tick. What is left after them is not moved.
@@ -73,15 +73,19 @@ impl Solver<'_> {
             let push = self.push_of(touch.obstacle, touch.point, touch.normal, t);
             let gap = (touch.distance - HIT).max(0.0);
             let yields = self.near.obstacles[touch.obstacle as usize].kind as u8;
-            self.planes
-                .push(HalfSpace::new(touch.normal, push - gap, yields));
+            planes::add(
+                self.planes,
+                HalfSpace::new(touch.normal, push - gap, yields),
+            );
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
                 let steepness = level.dot(touch.normal).max(0.01);
                 let push = self.push_of(touch.obstacle, touch.point, level, t);
-                self.planes
-                    .push(HalfSpace::new(level, push - gap / steepness, yields));
+                planes::add(
+                    self.planes,
+                    HalfSpace::new(level, push - gap / steepness, yields),
+                );
             }
         }
         let stopped = self
@@ -169,8 +173,10 @@ impl Solver<'_> {
         }
         self.planes.clear();
         for stop in self.stops.iter() {
-            self.planes
-                .push(HalfSpace::new(stop.normal, stop.bound, stop.yields));
+            planes::add(
+                self.planes,
+                HalfSpace::new(stop.normal, stop.bound, stop.yields),
+            );
         }
         let (x, _) = nearest_yielding(velocity.as_dvec3(), self.planes);
         self.velocity = x.as_vec3();

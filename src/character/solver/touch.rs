@@ -80,6 +80,7 @@ impl Solver<'_> {
     /// Collects everything within `range` of the mover at `p`, at the fraction `t` of the tick.
     pub fn touch(&mut self, p: Vec3, t: f32, range: f32) {
         self.touches.clear();
+        self.touched_at = (p, t);
         let pose = self.pose.at(p);
         let count = self
             .near

@@ -1,12 +1,15 @@
 //! What to look at in a tick, and the share of the gaps between characters.
 
-use bevy::prelude::*;
+use bevy::{math::ops, prelude::*};
 
 use super::Tick;
 use crate::{
     backend::neighbourhood::{Mover, MoverPose, Neighbourhood, ObstacleKind, Request},
     character::solver::Solver,
 };
+
+/// Part of a motion past another character that may be turned towards it.
+const ASIDE: f32 = 0.5;
 
 impl Tick<'_, '_, '_, '_> {
     pub(super) fn gather(
@@ -27,7 +30,8 @@ impl Tick<'_, '_, '_, '_> {
             0.0
         };
         let above = growth + if wide { step + 0.05 } else { 0.0 };
-        let margin = 0.05 + self.push + if wide { mover.width + min_width } else { 0.0 };
+        let aside = if wide { mover.width + min_width } else { 0.0 };
+        let margin = 0.05 + self.push;
         let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
         let foot = pose.position - up * below;
         let head = pose.position + up * (2.0 * mover.middle + above);
@@ -35,15 +39,21 @@ impl Tick<'_, '_, '_, '_> {
             low = low.min(p);
             high = high.max(p);
         }
-        let grow = Vec3::splat(mover.width + margin) * (Vec3::ONE - up.abs() * 0.9)
-            + up.abs() * (0.05 + self.push);
+        // A flat foot reaches farthest along the axes that are level.
+        let level = Vec3::from(
+            (Vec3::ONE - up * up)
+                .max(Vec3::ZERO)
+                .to_array()
+                .map(ops::sqrt),
+        );
+        let grow = level * (mover.width + aside) + margin;
         let request = Request {
             mover,
             pose,
             origin: self.start.position,
             low: low - grow,
             high: high + grow,
-            reach: displacement.length() + below.max(above) + margin,
+            reach: displacement.length() + below.max(above) + margin + aside,
             probe: pose.position + up * mover.middle,
         };
         let around = self.around;
@@ -51,7 +61,7 @@ impl Tick<'_, '_, '_, '_> {
             &request,
             around.groups,
             around.dt,
-            |collider, body| around.judge(collider, body),
+            |collider, body| around.judge(collider, body, self.config.pushed_by_bodies),
             near,
         );
         near.sort();
@@ -113,13 +123,21 @@ impl Tick<'_, '_, '_, '_> {
             let Ok(other) = self.around.others.get(obstacle.body) else {
                 continue;
             };
-            let mine = (-piece.normal.dot(displacement)).max(0.0);
-            let theirs = (piece.normal.dot(other.velocity) * self.around.dt).max(0.0);
+            let mine = approach(displacement, -piece.normal);
+            let theirs = approach(other.velocity * self.around.dt, piece.normal);
             let gap = piece.clearance - obstacle.skin;
-            if mine > 0.0 && theirs > 0.0 && gap > 0.0 {
+            if mine + theirs > gap && theirs > 0.0 && gap > 0.0 {
                 obstacle.skin += gap * theirs / (mine + theirs);
                 near.slack = near.slack.max(obstacle.skin);
             }
         }
     }
+}
+
+/// How far a displacement may lead along `n`: what it wants, and half of what goes aside, which a
+/// third character may turn that way. Who goes away does not come near.
+fn approach(displacement: Vec3, n: Vec3) -> f32 {
+    let along = displacement.dot(n);
+    let aside = (displacement - n * along).length();
+    (along + ASIDE * aside).max(0.0)
 }

@@ -46,7 +46,7 @@ impl Tick<'_, '_, '_, '_> {
         if self.carry.turn != 0.0 && was_on_ground && self.config.turn_with_platform {
             velocity = Quat::from_axis_angle(up, self.carry.turn) * velocity;
         }
-        let carried = self.carry.displacement / dt;
+        let carried = self.carry.velocity;
         let ground = self.ground(solver, &support, origin);
         let on_ground = support.state == GroundState::OnGround;
         self.state.velocity = velocity;
@@ -117,7 +117,7 @@ impl Tick<'_, '_, '_, '_> {
         if on_ground {
             self.state.jumping = false;
         }
-        self.state.ground = ground;
+        let stood_on = core::mem::replace(&mut self.state.ground, ground);
         self.state.water = self
             .around
             .volume(&solver.near.volumes, self.state.water, |v| v.0.is_some());
@@ -132,8 +132,8 @@ impl Tick<'_, '_, '_, '_> {
             0.0
         };
         self.note_step(solver, climbed, snapped, rise);
-        self.weigh(solver, &support, was_on_ground, origin);
-        self.note_contacts(solver, origin);
+        self.weigh(solver, &support, &stood_on, origin);
+        self.note_contacts(solver, p, origin);
     }
 
     /// The ground as the state tells it.
@@ -207,7 +207,8 @@ impl Tick<'_, '_, '_, '_> {
     }
 
     /// Collects the impulses for bodies: pushes, and the weight on what carries.
-    fn weigh(&mut self, solver: &Solver, support: &Support, was_on_ground: bool, origin: Vec3) {
+    fn weigh(&mut self, solver: &Solver, support: &Support, stood_on: &Ground, origin: Vec3) {
+        let known = core::mem::take(&mut self.state.weight);
         self.report.impulses.clear();
         self.report.impulses.reserve(8);
         for i in solver.impulses.iter() {
@@ -226,24 +227,40 @@ impl Tick<'_, '_, '_, '_> {
             return;
         };
         let obstacle = &solver.near.obstacles[index as usize];
-        if obstacle.dynamics.is_none() || obstacle.kind != ObstacleKind::Dynamic {
+        let Some(body) = obstacle
+            .dynamics
+            .filter(|_| obstacle.kind == ObstacleKind::Dynamic)
+        else {
             return;
-        }
+        };
         let gravity = self
             .motor
             .gravity
             .unwrap_or(self.around.view.gravity.length())
             * self.motor.gravity_scale;
+        let (up, mass) = (self.state.up, self.config.mass);
+        let full = mass * gravity;
+        let was_on_ground = stood_on.state == GroundState::OnGround;
+        self.state.weight = if was_on_ground && stood_on.entity == Some(obstacle.entity) {
+            let now = self.state.ground.velocity;
+            let acceleration = (now - stood_on.velocity).dot(up) / self.around.dt;
+            let share = mass / body.effective_mass(support.point, up);
+            ease_weight(known, full, mass * acceleration, share)
+        } else {
+            full
+        };
         self.report.impulses.push(BodyImpulse {
             body: obstacle.body,
             impulse: Vec3::ZERO,
-            force: -self.state.up * (self.config.mass * gravity),
+            force: -up * self.state.weight,
             point: origin + support.point,
             wake: !was_on_ground || self.report.woken,
         });
     }
 
-    fn note_contacts(&mut self, solver: &mut Solver, origin: Vec3) {
+    fn note_contacts(&mut self, solver: &mut Solver, p: Vec3, origin: Vec3) {
+        // A look at another place, for a step or for growing, may have been the last.
+        solver.touch_at_end(p);
         let contacts = &mut self.contacts.contacts;
         contacts.clear();
         // Room for more than a usual tick needs, so that later ticks need no memory.
@@ -290,7 +307,7 @@ impl Tick<'_, '_, '_, '_> {
                 });
             }
         }
-        for touch in solver.touches_now() {
+        for touch in solver.touches() {
             let entity = solver.near.obstacles[touch.obstacle as usize].entity;
             let known = contacts
                 .iter()
@@ -307,6 +324,17 @@ impl Tick<'_, '_, '_, '_> {
             }
         }
     }
+}
+
+/// The weight on ground that accelerates: `full` and `inertia` (mass times the ground's acceleration
+/// upwards) in newtons, `share` the mass over the mass that the ground opposes.
+///
+/// Ground that falls away is pressed less, ground that lifts more. The acceleration seen is the one
+/// that the last weight made, so the new one is approached by a part that keeps the loop stable for
+/// every ratio of the masses; at rest and in steady acceleration it is exact.
+fn ease_weight(last: f32, full: f32, inertia: f32, share: f32) -> f32 {
+    let wanted = (full + inertia).clamp(0.0, 1.5 * full);
+    last + (wanted - last) * 0.5 / (1.0 + share)
 }
 
 /// Velocity of the ground at the point of support, without conveyors.

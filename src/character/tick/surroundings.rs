@@ -49,7 +49,8 @@ pub(in crate::character) type Volume = (
 );
 
 impl Surroundings<'_, '_, '_> {
-    pub fn judge(&self, collider: Entity, body: Entity) -> Verdict {
+    /// What a collider is to the character; `pushes` tells whether bodies push it.
+    pub fn judge(&self, collider: Entity, body: Entity, pushes: bool) -> Verdict {
         if body == self.entity
             || self
                 .ignores
@@ -60,9 +61,12 @@ impl Surroundings<'_, '_, '_> {
         {
             Verdict::Skip
         } else if let Ok(other) = self.others.get(body) {
-            Verdict::Character(other.margin)
+            Verdict::Character {
+                skin: other.margin,
+                way: other.velocity.length() * self.dt,
+            }
         } else if self.walls.contains(body) || self.walls.contains(collider) {
-            Verdict::Wall
+            Verdict::Wall { pushes }
         } else {
             Verdict::AsIs
         }

@@ -132,7 +132,6 @@ fn gather(hz: f64, seconds: f64, order: &[usize]) -> (Sim, Vec<Entity>) {
 }
 
 #[test]
-#[ignore = "open defect: 22 mm of overlap at 30 Hz, wanted 20"]
 fn a_crowd_that_gathers_does_not_pile_up_or_interpenetrate() {
     let mut found = Findings::new();
     let order: Vec<usize> = (0..50).collect();

@@ -380,7 +380,6 @@ fn a_turning_surface_carries_along_its_arc() {
 }
 
 #[test]
-#[ignore = "open defect: a child body under a turning parent is written back off its path by the physics plugin"]
 fn a_platform_that_is_a_child_carries_too() {
     let mut found = Findings::new();
     for hz in RATES {

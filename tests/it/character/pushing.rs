@@ -203,7 +203,6 @@ fn without_strength_every_body_is_a_wall() {
 }
 
 #[test]
-#[ignore = "open defect: the weight does not ease while the board falls away"]
 fn the_weight_of_a_character_rests_on_what_it_stands_on() {
     // A beam on a hinge: the side with the character goes down; without weight it stays level.
     let mut found = Findings::new();
@@ -236,10 +235,10 @@ fn the_weight_of_a_character_rests_on_what_it_stands_on() {
             let tilt = (sim.get::<Transform>(board).rotation * Vec3::X).y;
             let case = format!("{hz} Hz weighs {weighs}");
             if weighs {
-                // 70 kg at 2 m on a beam of 213 kg m²: 2.8 rad/s² at first, 0.35 rad in half a second;
-                // a free fall of the rider's side is 0.61 rad.
-                found.at_most(format!("{case}: tilt"), tilt, -0.2);
-                found.at_least(format!("{case}: tilt"), tilt, -0.62);
+                // 70 kg at 2 m on a beam of 213 kg m²: 2.8 rad/s² when both move as one, 0.35 rad in half
+                // a second; a free fall of the rider's side is 0.61 rad.
+                found.at_most(format!("{case}: tilt"), tilt, -0.28);
+                found.at_least(format!("{case}: tilt"), tilt, -0.55);
             } else {
                 found.near(format!("{case}: tilt"), tilt, 0.0, 0.03);
             }
@@ -269,7 +268,6 @@ fn scale(hz: f64) -> (Sim, Entity) {
 }
 
 #[test]
-#[ignore = "open defect: 10 % light at 30 Hz, 5 % at 60 Hz"]
 fn a_scale_under_a_standing_character_shows_its_weight() {
     // The same spring under a dead load of the same weight is the measure.
     let mut found = Findings::new();
@@ -462,9 +460,9 @@ fn another_character_pushes_the_crate_one_stands_on() {
 }
 
 #[test]
-#[ignore = "open defect: turn differs by 0.012 rad at 30 and 240 Hz"]
 fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
-    // The same box as a body at y = 3 and as a collider offset by 3 m.
+    // The same box as a body at y = 3 and as a collider offset by 3 m. It hangs clear of the floor:
+    // a corner that turns into it is Rapier's affair.
     let mut found = Findings::new();
     for hz in RATES {
         let run = |offset: bool| {
@@ -474,7 +472,7 @@ fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
             let body = if offset {
                 let body = sim.spawn((
                     RigidBody::Dynamic,
-                    Transform::from_xyz(1.0, 0.51, 0.0),
+                    Transform::from_xyz(1.0, 0.8, 0.0),
                     Velocity::default(),
                     GravityScale(0.0),
                 ));
@@ -487,7 +485,7 @@ fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
                 sim.spawn(child);
                 body
             } else {
-                let body = sim.dynamic(shape, Transform::from_xyz(1.0, 3.51, 0.0), 200.0);
+                let body = sim.dynamic(shape, Transform::from_xyz(1.0, 3.8, 0.0), 200.0);
                 insert(&mut sim, body, GravityScale(0.0));
                 body
             };
@@ -510,5 +508,95 @@ fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
             plain.linear.distance(offset.linear),
             5e-3,
         );
+    }
+}
+
+#[test]
+fn a_crate_of_two_halves_is_pushed_like_a_whole_one() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let run = |halves: bool| {
+            let mut sim = Sim::new(hz);
+            let floor = sim.floor(0.0);
+            insert(&mut sim, floor, Friction::coefficient(0.0));
+            let body = sim.spawn((
+                RigidBody::Dynamic,
+                Transform::from_xyz(1.0, 0.5, 0.0),
+                LockedAxes::ROTATION_LOCKED,
+                Velocity::default(),
+            ));
+            // The pusher meets the seam at z = 0.
+            let parts = if halves {
+                vec![(0.25, -0.25), (0.25, 0.25)]
+            } else {
+                vec![(0.5, 0.0)]
+            };
+            for (half, z) in parts {
+                sim.spawn((
+                    Collider::cuboid(0.5, 0.5, half),
+                    ColliderMassProperties::Mass(400.0 * half),
+                    Friction::coefficient(0.0),
+                    Transform::from_xyz(0.0, 0.0, z),
+                    ChildOf(body),
+                ));
+            }
+            let pusher = runner(&mut sim, Vec3::ZERO);
+            sim.seconds(0.3);
+            sim.walk(pusher, Vec3::X);
+            sim.seconds(0.5);
+            sim.get::<Velocity>(body).linear.x
+        };
+        let (whole, halves) = (run(false), run(true));
+        found.at_least(format!("{hz} Hz: moves"), whole, 0.3);
+        found.within(format!("{hz} Hz: halves"), halves, whole, 0.02);
+    }
+}
+
+#[test]
+fn a_body_that_cannot_be_pushed_pushes_like_a_wall() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for pushed in [true, false] {
+            let mut sim = Sim::new(hz);
+            let floor = sim.floor(0.0);
+            insert(&mut sim, floor, Friction::coefficient(0.0));
+            let block = sim.dynamic(
+                Collider::cuboid(0.5, 0.5, 0.5),
+                Transform::from_xyz(-2.0, 0.55, 0.0),
+                20.0,
+            );
+            insert(
+                &mut sim,
+                block,
+                (
+                    Velocity::linear(Vec3::X * 2.0),
+                    GravityScale(0.0),
+                    LockedAxes::ROTATION_LOCKED,
+                    NotPushable,
+                ),
+            );
+            let idler = runner_with(
+                &mut sim,
+                Character {
+                    pushed_by_bodies: pushed,
+                    ..default()
+                },
+                Vec3::ZERO,
+            );
+            sim.seconds(2.0);
+            let case = format!("{hz} Hz pushed {pushed}");
+            if pushed {
+                let gap = sim.position(idler).x - sim.position(block).x;
+                found.near(format!("{case}: pushed ahead"), gap, 0.8, 0.02);
+                found.near(
+                    format!("{case}: block goes on"),
+                    sim.position(block).x,
+                    2.0,
+                    0.05,
+                );
+            } else {
+                found.near(format!("{case}: stays"), sim.position(idler).x, 0.0, 0.02);
+            }
+        }
     }
 }

@@ -434,3 +434,50 @@ fn a_falling_body_follows_the_closed_form_through_changes_of_the_tick_rate() {
         assert!(sim.app.world().resource::<EmbodyDiagnosis>().is_healthy());
     }
 }
+
+#[test]
+fn a_body_below_a_turned_parent_goes_where_it_flies() {
+    for ticks_per_frame in TICKS_PER_FRAME {
+        let mut sim = weightless(ticks_per_frame);
+        let parent = sim.spawn(
+            Transform::from_xyz(3.0, -1.0, 2.0).with_rotation(Quat::from_euler(
+                EulerRot::YXZ,
+                1.2,
+                0.4,
+                -0.3,
+            )),
+        );
+        let place = Transform::from_xyz(4.0, 0.5, -2.0);
+        let velocity = Vec3::new(2.0, 1.0, -1.0);
+        let body = sim.spawn((
+            RigidBody::Dynamic,
+            Collider::ball(0.5),
+            Velocity {
+                linear: velocity,
+                angular: Vec3::Y,
+            },
+            place,
+            ChildOf(parent),
+        ));
+        let start = sim
+            .get::<Transform>(parent)
+            .transform_point(place.translation);
+        sim.ticks(60);
+        let seconds = sim.app.world().resource::<Tick>().0 as f32 / 60.0;
+        sim.app.world_mut().run_schedule(PostUpdate);
+        let at = sim.get::<GlobalTransform>(body).translation();
+        let wanted = start + velocity * seconds;
+        assert!(
+            at.distance(wanted) < 1e-3,
+            "{ticks_per_frame} ticks a frame: at {at}, not {wanted}"
+        );
+        let turned = sim.get::<GlobalTransform>(body).rotation();
+        let wanted = sim.get::<Transform>(parent).rotation;
+        assert!(
+            (turned * (Quat::from_rotation_y(seconds) * wanted).inverse())
+                .angle_between(Quat::IDENTITY)
+                < 1e-2,
+            "{ticks_per_frame} ticks a frame: turned by {turned}"
+        );
+    }
+}
