@@ -10,7 +10,9 @@ use bevy::{
 /// What the characters of the last tick cost.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CharacterDiagnostics {
-    /// Time that all characters together took, from the first of the tick's systems to the last.
+    /// Time that all characters together took to be moved and solved and to act on other bodies: all
+    /// of [`EmbodySystems::Drive`](crate::EmbodySystems::Drive). The building of bodies before it and
+    /// the events after it are left out.
     pub tick_time: Duration,
     /// Number of geometry queries (distance evaluations) of all characters together.
     pub queries: u32,

@@ -5,7 +5,7 @@
 //! [`Transform`] of every [`Interpolated`] entity holds, outside the fixed schedules, a pose between
 //! those of the last two ticks; inside them it holds the exact pose. Characters are interpolated by
 //! themselves; add [`Interpolated`] to other bodies that are seen moving. To leave one character
-//! out, give it [`NoTransformEasing`]; to leave all out, as on a server, disable the plugin:
+//! out, give it [`NotInterpolated`]; to leave all out, as on a server, disable the plugin:
 //!
 //! ```
 //! # use bevy::prelude::*;
@@ -23,15 +23,13 @@
 use bevy::{ecs::system::SystemChangeTick, prelude::*};
 use bevy_rapier3d::{plugin::systems::update_character_controls, prelude::*};
 use bevy_transform_interpolation::{
-    LastEasingTick, RotationEasingState, TransformEasingPlugin, TransformEasingSystems,
-    TranslationEasingState, prelude::TransformInterpolationPlugin,
+    LastEasingTick, NoTransformEasing, RotationEasingState, TransformEasingPlugin,
+    TransformEasingSystems, TranslationEasingState, prelude::TransformInterpolationPlugin,
     reset_easing_states_on_transform_change,
 };
 
 // Not by glob: Rapier's `TransformInterpolation` is another thing of the same name.
-pub use bevy_transform_interpolation::{
-    NoTransformEasing, prelude::RotationInterpolation, prelude::TranslationInterpolation,
-};
+pub use bevy_transform_interpolation::prelude::{RotationInterpolation, TranslationInterpolation};
 
 use crate::Teleported;
 
@@ -50,6 +48,12 @@ use crate::Teleported;
 #[require(TranslationInterpolation, RotationInterpolation)]
 pub struct Interpolated;
 
+/// Leaves this entity out, a character for example: it is shown where the last tick ended.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[require(NoTransformEasing)]
+pub struct NotInterpolated;
+
 /// Adds interpolation between ticks. Without it [`Interpolated`] does nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EmbodyInterpolationPlugin;
@@ -57,6 +61,7 @@ pub struct EmbodyInterpolationPlugin;
 impl Plugin for EmbodyInterpolationPlugin {
     fn build(&self, app: &mut App) {
         app.register_type::<Interpolated>()
+            .register_type::<NotInterpolated>()
             .add_observer(show_teleported_at_once);
         // An error here means that the app has registered it itself.
         let _ = app.try_register_required_components::<TranslationInterpolation, Shown>();

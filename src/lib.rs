@@ -1,4 +1,5 @@
 #![doc = include_str!("../README.md")]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 // Bits must not depend on the platform's mathematics library.
 #![warn(clippy::disallowed_methods)]
 
@@ -45,18 +46,28 @@ impl PluginGroup for EmbodyPlugins {
 
 /// What most games use.
 pub mod prelude {
+    #[cfg(all(feature = "character", feature = "debug"))]
+    #[doc(hidden)]
+    pub use crate::EmbodyDebugPlugin;
+    #[cfg(all(feature = "character", feature = "egui"))]
+    #[doc(hidden)]
+    pub use crate::EmbodyInspectorPlugin;
     #[cfg(feature = "character")]
     #[doc(hidden)]
     pub use crate::character::{
-        Character, CharacterContacts, CharacterFilter, CharacterIgnores, CharacterIntent,
-        CharacterMotor, CharacterPlugin, CharacterShape, CharacterState, CharacterUp, Crushed,
-        CustomMotor, GroundState, Hit, Ladder, Landed, LeaveVelocity, LeftGround, MovementMode,
-        NotPushable, SlopeSpeed, Stance, StanceChanged, StepConfig, Stepped, SurfaceGrip,
+        Anchor, Character, CharacterContact, CharacterContacts, CharacterFilter, CharacterIgnores,
+        CharacterIntent, CharacterMotor, CharacterPlugin, CharacterShape, CharacterState,
+        CharacterUp, Crushed, CustomMotor, Ground, GroundMaterial, GroundState, Hit, Ladder,
+        Landed, LastPose, LeaveVelocity, LeftGround, MovementMode, NotPushable, SlopeSpeed, Stance,
+        StanceChanged, StanceRefusal, StepAttempt, StepConfig, StepResult, Stepped, SurfaceGrip,
         SurfaceVelocity, UpDirection, WaterVolume,
     };
+    #[cfg(feature = "character")]
+    #[doc(hidden)]
+    pub use crate::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
     #[doc(hidden)]
     pub use crate::{
         EmbodyCorePlugin, EmbodyDiagnosis, EmbodyPlugins, EmbodyProblem, EmbodySystems, Teleported,
-        interpolation::{EmbodyInterpolationPlugin, Interpolated},
+        interpolation::{EmbodyInterpolationPlugin, Interpolated, NotInterpolated},
     };
 }

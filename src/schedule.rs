@@ -1,6 +1,6 @@
 //! When things happen in a tick, and the set-up of a fixed-step physics world.
 
-use bevy::prelude::*;
+use bevy::{app::AnimationSystems, prelude::*};
 use bevy_rapier3d::prelude::PhysicsSet;
 
 use crate::backend::{checks, setup, teleport};
@@ -22,7 +22,8 @@ pub enum EmbodySystems {
     Drive,
     /// After the results are written back: state, events, diagnostics.
     React,
-    /// Once per frame in `PostUpdate`: what is shown.
+    /// Once per frame in `PostUpdate`, after animation and before transforms are propagated: what is
+    /// shown. No system is in it yet; it is there for bodies that are posed, not moved.
     Present,
 }
 
@@ -42,6 +43,7 @@ impl Plugin for EmbodyCorePlugin {
         checks::add_checks(app);
         setup::add_clock(app);
         teleport::add_teleports(app);
+        app.register_type::<crate::Teleported>();
         app.configure_sets(
             FixedPostUpdate,
             (
@@ -54,7 +56,9 @@ impl Plugin for EmbodyCorePlugin {
         )
         .configure_sets(
             PostUpdate,
-            EmbodySystems::Present.before(TransformSystems::Propagate),
+            EmbodySystems::Present
+                .after(AnimationSystems)
+                .before(TransformSystems::Propagate),
         );
     }
 

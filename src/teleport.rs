@@ -21,7 +21,8 @@ use bevy::prelude::*;
 ///     commands.trigger(Teleported { entity });
 /// }
 /// ```
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct Teleported {
     /// The body.
     pub entity: Entity,

@@ -10,9 +10,23 @@ mod level;
 mod mesh;
 mod paint;
 
-use std::{path::Path, process::ExitCode};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 use level::Level;
+
+/// Where the level is.
+fn course() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/course.glb")
+}
+
+fn build() -> Level {
+    let mut level = Level::default();
+    level::build(&mut level);
+    level
+}
 
 #[expect(
     clippy::print_stdout,
@@ -21,9 +35,8 @@ use level::Level;
 )]
 fn main() -> ExitCode {
     let check = std::env::args().any(|argument| argument == "--check");
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/course.glb");
-    let mut level = Level::default();
-    level::build(&mut level);
+    let path = course();
+    let level = build();
     let bytes = match glb::encode(&level) {
         Ok(bytes) => bytes,
         Err(error) => {
@@ -63,4 +76,17 @@ fn main() -> ExitCode {
         bytes.len()
     );
     ExitCode::SUCCESS
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_course_is_what_its_generator_makes() {
+        let made = super::glb::encode(&super::build()).expect("the level can be encoded");
+        let found = std::fs::read(super::course()).expect("the level is there");
+        assert!(
+            made == found,
+            "assets/course.glb is not what the generator makes"
+        );
+    }
 }

@@ -62,6 +62,23 @@ pub enum EmbodyProblem {
     NoSchedule,
     /// There are bodies, but no Rapier context that could hold them.
     NoContext,
+    /// A plugin that stands on [`EmbodyCorePlugin`](crate::EmbodyCorePlugin) was added without it.
+    NoCore {
+        /// The name of that plugin.
+        plugin: &'static str,
+    },
+    /// A character's body is moved by Rapier as well.
+    MovedTwice {
+        /// The first one met.
+        entity: Entity,
+        /// What its body is.
+        body: RigidBody,
+    },
+    /// A character's collider is a sensor.
+    SensorCharacter {
+        /// The first one met.
+        entity: Entity,
+    },
     /// A body is scaled.
     ScaledBody {
         /// The first one met.
@@ -101,6 +118,24 @@ impl fmt::Display for EmbodyProblem {
                 "There are physics bodies, but no Rapier context to hold them, so they will not \
                  move. Spawn an entity with `RapierContextSimulation` and `DefaultRapierContext`, \
                  or do not insert `RapierContextInitialization::NoAutomaticRapierContext`.",
+            ),
+            Self::NoCore { plugin } => write!(
+                f,
+                "`{plugin}` was added without `EmbodyCorePlugin`, so nothing tells when its systems \
+                 run beside Rapier's. Add `EmbodyCorePlugin` as well, or `EmbodyPlugins` in place of \
+                 both."
+            ),
+            Self::MovedTwice { entity, body } => write!(
+                f,
+                "{entity} is a character with `RigidBody::{body:?}`, so Rapier and the character's \
+                 solver both move it. Leave the component out, or set \
+                 `RigidBody::KinematicPositionBased`. Other such characters are not reported."
+            ),
+            Self::SensorCharacter { entity } => write!(
+                f,
+                "{entity} is a character with a `Sensor`, so other characters and bodies pass \
+                 through it. Put the sensor on a child; to let some pass through, use \
+                 `CollisionGroups` or `CharacterFilter`. Other such characters are not reported."
             ),
             Self::ScaledBody { entity, scale } => write!(
                 f,

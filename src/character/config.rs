@@ -25,6 +25,14 @@ use super::{
 ///
 /// A value out of its range is refused with one warning; the character then stays where it is
 /// until the value is mended.
+///
+/// It gets a collider a little smaller than its shape, for others to meet. A collider of the game's
+/// own is left as it is: the solver moves by [`Self::shape`] all the same, so the collider is only
+/// what bodies and queries find, and it does not follow the stance.
+///
+/// Without this component it is a character no more: outputs and the collider made for it go, its
+/// [`CharacterState`] and its [`RigidBody`] stay for who takes over. While it has a
+/// [`RigidBodyDisabled`](bevy_rapier3d::prelude::RigidBodyDisabled) nothing happens to it.
 #[derive(Component, Reflect, Clone, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -57,12 +65,16 @@ pub struct Character {
     /// 0 lets the character fly off every crest; more than the step height lets it walk down
     /// stairs that it cannot climb.
     pub ground_snap: f32,
-    /// Greatest speed at which an overlap is undone, metres per second. Near 0 a character that
-    /// starts inside something stays there; very large it jumps out in one tick.
+    /// Greatest speed at which an overlap is undone, metres per second. At 0 a character that
+    /// starts inside something stays there; at infinity it jumps out in one tick.
     pub recovery_speed: f32,
-    /// Mass, kilograms: its weight on what it stands on, and its share when bodies run into it.
+    /// Mass, kilograms, above 0: its weight on what it stands on, and its share when bodies run into
+    /// it. Near 0 every body takes it along and none feels its weight; very large nothing that is
+    /// loose moves it, and seesaws and rafts go down at once.
     pub mass: f32,
-    /// Greatest force with which it pushes dynamic bodies aside, newtons. At 0 every body is a wall.
+    /// Greatest force with which it pushes dynamic bodies aside, newtons. At 0 every body is a wall;
+    /// at infinity a body of any mass is brought to the character's speed within a tick, as far as
+    /// what is behind it lets it.
     pub push_strength: f32,
     /// Whether dynamic bodies that run into it push it, according to their mass.
     pub pushed_by_bodies: bool,
@@ -73,7 +85,8 @@ pub struct Character {
     /// Whether the character's weight acts on dynamic bodies it stands on.
     pub weighs_on_ground: bool,
     /// Time constant with which [`CharacterState::view_offset`] smooths steps, seconds; 0 leaves
-    /// every step visible at once.
+    /// every step visible at once; above some tenths of a second the view lags behind on stairs.
+    /// Finite.
     pub step_smoothing: f32,
 }
 
@@ -130,6 +143,7 @@ impl Character {
 #[derive(Reflect, Clone, Debug, PartialEq)]
 #[reflect(Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum CharacterShape {
     /// Round bottom and top: the fastest, and the smoothest over edges.
     Capsule {
@@ -150,9 +164,10 @@ pub enum CharacterShape {
         /// Width, height and depth, metres, each above 0.
         size: Vec3,
     },
-    /// The convex hull of these points, metres, relative to the foot.
+    /// The convex hull of these points, metres, relative to the foot. Each query costs in proportion
+    /// to the points on the hull: some dozens are fast, some hundreds are slow in a crowd.
     ConvexHull {
-        /// At least four points that span a volume.
+        /// At least four points that span a volume. The lowest is taken to the height of the foot.
         points: Vec<Vec3>,
     },
 }
@@ -230,7 +245,8 @@ pub enum SlopeSpeed {
     Horizontal,
 }
 
-/// What is kept of a platform's velocity on leaving it.
+/// What is kept of a platform's velocity on leaving it, by a jump or a step. From one ground onto
+/// another it is the difference of their velocities that is kept or not.
 #[derive(Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[reflect(Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]

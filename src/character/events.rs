@@ -6,7 +6,8 @@ use bevy::prelude::*;
 use super::intent::Stance;
 
 /// It came down on ground that holds it.
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct Landed {
     /// The character.
     pub entity: Entity,
@@ -19,7 +20,8 @@ pub struct Landed {
 }
 
 /// It left the ground: jumped, walked off an edge, or lost what it stood on.
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct LeftGround {
     /// The character.
     pub entity: Entity,
@@ -30,7 +32,8 @@ pub struct LeftGround {
 }
 
 /// It climbed a step.
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct Stepped {
     /// The character.
     pub entity: Entity,
@@ -39,7 +42,8 @@ pub struct Stepped {
 }
 
 /// It ran into something, or something ran into it: triggered when a blocking contact begins.
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct Hit {
     /// The character.
     pub entity: Entity,
@@ -56,7 +60,8 @@ pub struct Hit {
 }
 
 /// Its height changed.
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct StanceChanged {
     /// The character.
     pub entity: Entity,
@@ -69,7 +74,8 @@ pub struct StanceChanged {
 }
 
 /// It is pinned between things that close on it. Triggered once when it begins.
-#[derive(EntityEvent, Clone, Copy, Debug, PartialEq)]
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Debug, PartialEq, Clone)]
 pub struct Crushed {
     /// The character.
     pub entity: Entity,

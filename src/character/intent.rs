@@ -19,7 +19,9 @@ pub struct CharacterIntent {
     pub sprint: bool,
     /// Height to take up.
     pub stance: Stance,
-    /// Direction to face, in world axes; `None` leaves the facing to the motor.
+    /// Direction to face, in world axes; `None` is where it walks. Turned to at
+    /// [`CharacterMotor::turn_rate`](super::CharacterMotor::turn_rate); while that is `None`, as it is
+    /// by default, it has no effect.
     pub facing: Option<Vec3>,
 }
 
@@ -34,5 +36,6 @@ pub enum Stance {
     /// [`Character::crouch_height`](super::Character::crouch_height).
     Crouch,
     /// Any total height, metres; kept between the least that the shape allows and its full height.
+    /// The speed on foot goes with it.
     Height(f32),
 }

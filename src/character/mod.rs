@@ -1,6 +1,7 @@
 //! A kinematic character controller.
 
 mod body;
+mod checks;
 mod config;
 mod drive;
 mod events;
@@ -20,21 +21,21 @@ mod validate;
 
 use bevy::prelude::*;
 
-#[cfg(doc)]
-use crate::schedule::EmbodyCorePlugin;
 use crate::{
-    backend::{activity::Activity, world::ForcedBodies},
+    backend::{
+        activity::Activity,
+        checks::{EmbodyDiagnosis, EmbodyProblem},
+        world::ForcedBodies,
+    },
     diagnostics::CharacterDiagnostics,
-    schedule::EmbodySystems,
+    schedule::{EmbodyCorePlugin, EmbodySystems},
 };
 
 pub use config::{Character, CharacterShape, LeaveVelocity, SlopeSpeed, StepConfig};
 pub use events::{Crushed, Hit, Landed, LeftGround, StanceChanged, Stepped};
 pub use intent::{CharacterIntent, Stance};
 pub use motor::{CharacterMotor, CustomMotor};
-pub use output::{
-    CharacterContact, CharacterContacts, CharacterSnapshot, StanceRefusal, StepAttempt, StepResult,
-};
+pub use output::{CharacterContact, CharacterContacts, StanceRefusal, StepAttempt, StepResult};
 pub use state::{
     Anchor, CharacterState, Ground, GroundMaterial, GroundState, LastPose, MovementMode,
 };
@@ -62,6 +63,12 @@ impl Plugin for CharacterPlugin {
             .register_type::<WaterVolume>()
             .register_type::<Ladder>()
             .register_type::<NotPushable>()
+            .register_type::<Landed>()
+            .register_type::<LeftGround>()
+            .register_type::<Stepped>()
+            .register_type::<Hit>()
+            .register_type::<StanceChanged>()
+            .register_type::<Crushed>()
             .init_resource::<Activity>()
             .init_resource::<ForcedBodies>()
             .init_resource::<measure::Stopwatch>()
@@ -70,6 +77,8 @@ impl Plugin for CharacterPlugin {
                 FixedPostUpdate,
                 (
                     (
+                        checks::check_bodies,
+                        checks::check_surroundings,
                         guard::keep_finite,
                         body::build_bodies,
                         body::resize_colliders,
@@ -95,5 +104,16 @@ impl Plugin for CharacterPlugin {
                 FixedPostUpdate,
                 drive::end_forces.in_set(EmbodySystems::Prepare),
             );
+    }
+
+    // Here every plugin of the app is known, whatever the order in which they were added.
+    fn finish(&self, app: &mut App) {
+        if !app.is_plugin_added::<EmbodyCorePlugin>() {
+            app.world_mut()
+                .get_resource_or_init::<EmbodyDiagnosis>()
+                .report(EmbodyProblem::NoCore {
+                    plugin: "CharacterPlugin",
+                });
+        }
     }
 }

@@ -52,6 +52,7 @@ pub struct CharacterContact {
 /// Why a change of height was refused.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Debug, PartialEq, Clone)]
+#[non_exhaustive]
 pub enum StanceRefusal {
     /// Something is in the way.
     Blocked {
@@ -79,6 +80,7 @@ pub struct StepAttempt {
 /// What came of an attempt to climb a step.
 #[derive(Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Debug, PartialEq, Clone)]
+#[non_exhaustive]
 pub enum StepResult {
     /// Climbed; the foot rose by this much in this tick, metres.
     Climbed(f32),
@@ -99,9 +101,8 @@ pub enum StepResult {
 }
 
 /// What other characters see of a character during a tick: where it is and where it wants to go.
-#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
-#[reflect(Component, Default, Debug, PartialEq, Clone)]
-pub struct CharacterSnapshot {
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct CharacterSnapshot {
     pub(crate) velocity: Vec3,
     pub(crate) margin: f32,
     pub(crate) active: bool,

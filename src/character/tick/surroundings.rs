@@ -57,7 +57,7 @@ impl Surroundings<'_, '_, '_> {
                 .is_some_and(|i| i.0.contains(&collider) || i.0.contains(&body))
             || self
                 .filter
-                .is_some_and(|filter| !(filter.0)(self.entity, collider))
+                .is_some_and(|filter| !filter.touches(self.entity, collider))
         {
             Verdict::Skip
         } else if let Ok(other) = self.others.get(body) {

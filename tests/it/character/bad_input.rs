@@ -389,3 +389,88 @@ fn a_capsule_a_hair_lower_than_its_two_radii_is_a_ball() {
         found.at_least(format!("{hz} Hz"), sim.position(who).x, 1.0);
     }
 }
+
+#[test]
+fn a_bad_up_belt_grip_or_flow_is_told_once_and_left_out() {
+    let mut found = Findings::new();
+    let nan = Vec3::NAN;
+    let up = |direction| CharacterUp {
+        direction,
+        turn_rate: 6.0,
+    };
+    type Case = (&'static str, Box<dyn Fn(&mut EntityWorldMut)>);
+    fn case(name: &'static str, bundle: impl Component + Copy) -> Case {
+        (
+            name,
+            Box::new(move |entity| {
+                entity.insert(bundle);
+            }),
+        )
+    }
+    // On the floor or on the character; the water holds the character.
+    let on_floor = [
+        case(
+            "SurfaceVelocity",
+            SurfaceVelocity {
+                linear: nan,
+                angular: Vec3::ZERO,
+            },
+        ),
+        case(
+            "SurfaceVelocity",
+            SurfaceVelocity {
+                linear: Vec3::ZERO,
+                angular: Vec3::INFINITY,
+            },
+        ),
+        case("SurfaceGrip", SurfaceGrip(f32::NAN)),
+        case("SurfaceGrip", SurfaceGrip(-1.0)),
+    ];
+    let on_character = [
+        case("CharacterUp::direction", up(UpDirection::World(nan))),
+        case("CharacterUp::direction", up(UpDirection::World(Vec3::ZERO))),
+        case("CharacterUp::direction", up(UpDirection::AwayFrom(nan))),
+        case(
+            "CharacterUp::turn_rate",
+            CharacterUp {
+                turn_rate: f32::NAN,
+                ..default()
+            },
+        ),
+    ];
+    let in_water = [case("WaterVolume::flow", WaterVolume { flow: nan })];
+    let cases = on_floor
+        .iter()
+        .map(|case| (0, case))
+        .chain(on_character.iter().map(|case| (1, case)))
+        .chain(in_water.iter().map(|case| (2, case)));
+    for (place, (name, spoil)) in cases {
+        let mut sim = Sim::new(60.0);
+        warnings::unique_entities(&mut sim);
+        let floor = sim.floor(0.0);
+        let water = sim.spawn((
+            Collider::cuboid(5.0, 5.0, 5.0),
+            bevy_rapier3d::prelude::Sensor,
+            Transform::IDENTITY,
+        ));
+        let who = runner(&mut sim, Vec3::ZERO);
+        sim.seconds(0.2);
+        let spoilt = [floor, who, water][place];
+        for _ in 0..20 {
+            spoil(&mut sim.app.world_mut().entity_mut(spoilt));
+            sim.walk(who, Vec3::X);
+            sim.ticks(1);
+        }
+        let told = warnings::about(spoilt);
+        found.holds(
+            format!("{name}: told once {told:?}"),
+            told.len() == 1 && told[0].contains(name),
+        );
+        found.holds(format!("{name}: finite"), finite(&sim, who));
+        found.at_most(
+            format!("{name}: stays upright"),
+            sim.state(who).up.distance(Vec3::Y),
+            0.001,
+        );
+    }
+}

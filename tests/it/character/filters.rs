@@ -111,7 +111,7 @@ fn a_predicate_decides_for_each_collider() {
             }
         }
         let who = runner(&mut sim, Vec3::ZERO);
-        insert(&mut sim, who, CharacterFilter(nothing_of_the_first));
+        insert(&mut sim, who, CharacterFilter::new(nothing_of_the_first));
         sim.seconds(0.3);
         sim.walk(who, Vec3::X);
         sim.seconds(1.5);
@@ -202,5 +202,21 @@ fn a_change_of_filter_acts_on_the_next_tick() {
         insert(&mut sim, who, CharacterIgnores(vec![floor]));
         sim.seconds(0.5);
         found.at_most(format!("{hz} Hz: falls"), sim.position(who).y, -1.0);
+    }
+}
+
+#[test]
+fn a_predicate_can_go_by_data_of_its_own() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for ours in [true, false] {
+            let x = run_at_wall(hz, |sim, who, wall| {
+                let doors: Vec<Entity> = if ours { vec![wall] } else { Vec::new() };
+                let filter = CharacterFilter::new(move |_, other| !doors.contains(&other));
+                assert_eq!(filter.touches(who, wall), !ours);
+                insert(sim, who, filter);
+            });
+            expect(&mut found, &format!("{hz} Hz ours {ours}"), x, ours);
+        }
     }
 }

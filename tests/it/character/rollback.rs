@@ -287,3 +287,46 @@ fn a_save_restored_gives_the_same_ticks_again_across_stances_bodies_water_and_la
         }
     }
 }
+
+#[test]
+fn a_state_before_its_first_tick_is_equal_to_itself_and_survives_json() {
+    let fresh = CharacterState::default();
+    assert_eq!(fresh, fresh.clone());
+    let text = serde_json::to_string(&fresh).expect("a state is plain data");
+    let back: CharacterState = serde_json::from_str(&text).expect("what was written");
+    assert_eq!(back, fresh);
+
+    // And one in the middle of things.
+    let mut sim = Sim::new(60.0);
+    sim.floor(0.0);
+    let who = runner(&mut sim, Vec3::Y);
+    sim.seconds(0.2);
+    let state = sim.state(who);
+    let text = serde_json::to_string(&state).expect("a state is plain data");
+    let back: CharacterState = serde_json::from_str(&text).expect("what was written");
+    assert_eq!(back, state);
+}
+
+#[test]
+fn what_a_character_holds_of_other_entities_is_mapped_to_a_copy_of_the_world() {
+    use bevy::ecs::entity::{EntityHashMap, MapEntities};
+    let mut world = World::new();
+    let [a, b, c, d] = core::array::from_fn(|_| world.spawn_empty().id());
+    let mut map = EntityHashMap::from_iter([(a, c), (b, d)]);
+    let mut up = CharacterUp {
+        direction: UpDirection::Of(a, Vec3::Y),
+        turn_rate: 1.0,
+    };
+    MapEntities::map_entities(&mut up, &mut map);
+    assert_eq!(up.direction, UpDirection::Of(c, Vec3::Y));
+    let mut ignores = CharacterIgnores(vec![b, a]);
+    MapEntities::map_entities(&mut ignores, &mut map);
+    assert_eq!(ignores.0, [d, c]);
+    let mut state = CharacterState {
+        water: Some(a),
+        ladder: Some(b),
+        ..default()
+    };
+    MapEntities::map_entities(&mut state, &mut map);
+    assert_eq!((state.water, state.ladder), (Some(c), Some(d)));
+}

@@ -268,6 +268,56 @@ fn a_missing_context_is_reported_when_there_are_bodies() {
 }
 
 #[test]
+fn a_character_plugin_without_the_core_is_reported() {
+    let sim = sim(|app| {
+        app.add_plugins(CharacterPlugin);
+    });
+    let plugin = "CharacterPlugin";
+    assert_eq!(problems(&sim), [EmbodyProblem::NoCore { plugin }]);
+    let sim = self::sim(|app| {
+        app.add_plugins((CharacterPlugin, EmbodyCorePlugin));
+    });
+    assert_eq!(problems(&sim), []);
+}
+
+#[test]
+fn a_character_that_rapier_moves_or_that_is_a_sensor_is_reported_once() {
+    let mut sim = sim(|app| {
+        app.add_plugins(embody());
+    });
+    sim.spawn((Character::default(), Transform::default()));
+    sim.spawn((
+        Character::default(),
+        RigidBody::KinematicPositionBased,
+        Collider::ball(0.3),
+        Transform::from_xyz(5.0, 0.0, 0.0),
+    ));
+    sim.ticks(2);
+    assert_eq!(problems(&sim), []);
+    let body = RigidBody::Dynamic;
+    let [twice, _] = [10.0, 15.0]
+        .map(|x| sim.spawn((Character::default(), body, Transform::from_xyz(x, 0.0, 0.0))));
+    let [sensor, _] = [20.0, 25.0].map(|x| {
+        sim.spawn((
+            Character::default(),
+            Sensor,
+            Transform::from_xyz(x, 0.0, 0.0),
+        ))
+    });
+    sim.ticks(2);
+    assert_eq!(
+        problems(&sim),
+        [
+            EmbodyProblem::MovedTwice {
+                entity: twice,
+                body
+            },
+            EmbodyProblem::SensorCharacter { entity: sensor },
+        ]
+    );
+}
+
+#[test]
 fn each_problem_says_what_to_do() {
     let texts = [
         EmbodyProblem::NotFixedTimestep,
@@ -284,6 +334,14 @@ fn each_problem_says_what_to_do() {
             entity: Entity::PLACEHOLDER,
             scale: Vec3::ONE,
         },
+        EmbodyProblem::NoCore { plugin: "APlugin" },
+        EmbodyProblem::MovedTwice {
+            entity: Entity::PLACEHOLDER,
+            body: RigidBody::Dynamic,
+        },
+        EmbodyProblem::SensorCharacter {
+            entity: Entity::PLACEHOLDER,
+        },
     ]
     .map(|problem| problem.to_string());
     let cures = [
@@ -293,6 +351,9 @@ fn each_problem_says_what_to_do() {
         "with_default_system_setup",
         "RapierContextSimulation",
         "scaled child",
+        "EmbodyPlugins",
+        "KinematicPositionBased",
+        "CharacterFilter",
     ];
     for (text, cure) in texts.iter().zip(cures) {
         assert!(text.contains(cure), "{text}");

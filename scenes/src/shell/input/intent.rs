@@ -125,13 +125,13 @@ fn movement(rig: &CameraRig, mode: MovementMode, controls: &Controls, jump: bool
     let rise = f32::from(jump) - f32::from(controls.crouch);
     let up = rig.base * Vec3::Y;
     let movement = match mode {
-        MovementMode::Walk => rig.heading() * asked,
         MovementMode::Fly | MovementMode::Swim => rig.rotation() * asked + up * rise,
         // Forward climbs, unless the player looks well down.
         MovementMode::Climb => {
             let sign = if rig.pitch < -0.7 { -1.0 } else { 1.0 };
             rig.heading() * asked + up * (controls.movement.y * sign)
         }
+        _ => rig.heading() * asked,
     };
     movement.clamp_length_max(1.0)
 }
