@@ -1,6 +1,6 @@
 //! The system that runs the motors, and the choice of mode.
 
-use bevy::prelude::*;
+use bevy::{ecs::batching::BatchingStrategy, prelude::*};
 use bevy_rapier3d::plugin::context::RapierContextEntityLink;
 
 use super::{
@@ -48,71 +48,88 @@ pub(crate) fn drive_motors(
     if !(dt > 0.0) {
         return;
     }
-    characters.par_iter_mut().for_each(
-        |(config, motor, intent, body, link, up, custom, mut state, mut snapshot, mut report)| {
-            let Some(view) = worlds.of(link) else { return };
-            if body.mover.is_none() || !view.active {
-                return;
-            }
-            let intent = finite(*intent);
-            let at_rest = state.on_ground()
-                && state.velocity == Vec3::ZERO
-                && intent.movement == Vec3::ZERO
-                && !intent.jump
-                && !state.jump_held
-                && state.mode == MovementMode::Walk
-                && state.jump_buffer == 0.0
-                && up.is_none();
-            if at_rest {
-                if snapshot.active {
-                    snapshot.active = false;
-                    snapshot.velocity = Vec3::ZERO;
+    // Most motors have little to do: a task of a few would cost more than it does.
+    let batches = BatchingStrategy::new().min_batch_size(256);
+    characters
+        .par_iter_mut()
+        .batching_strategy(batches)
+        .for_each(
+            |(
+                config,
+                motor,
+                intent,
+                body,
+                link,
+                up,
+                custom,
+                mut state,
+                mut snapshot,
+                mut report,
+            )| {
+                let Some(view) = worlds.of(link) else { return };
+                if body.mover.is_none() || !view.active {
+                    return;
                 }
-                if report.woken {
-                    report.woken = false;
+                let intent = finite(*intent);
+                let at_rest = state.on_ground()
+                    && state.velocity == Vec3::ZERO
+                    && intent.movement == Vec3::ZERO
+                    && !intent.jump
+                    && !state.jump_held
+                    && state.mode == MovementMode::Walk
+                    && state.jump_buffer == 0.0
+                    && up.is_none();
+                if at_rest {
+                    if snapshot.active {
+                        snapshot.active = false;
+                        snapshot.velocity = Vec3::ZERO;
+                    }
+                    if report.woken {
+                        report.woken = false;
+                    }
+                    return;
                 }
-                return;
-            }
-            let state = &mut *state;
-            let report = &mut *report;
-            report.woken = true;
-            report.was = state.ground.state;
-            report.left = state.ground.entity;
-            report.jumped = false;
-            if let Some(up) = up {
-                follow_up(state, up, view.gravity, &poses, dt);
-            }
-            let course = if custom {
-                let leaves = state.velocity.dot(state.up) > 0.1
-                    && state.velocity.dot(state.ground.normal) > 0.1;
-                if state.on_ground() && leaves {
-                    leave_ground(config, state);
+                let state = &mut *state;
+                let report = &mut *report;
+                report.woken = true;
+                report.was = state.ground.state;
+                report.left = state.ground.entity;
+                report.jumped = false;
+                if let Some(up) = up {
+                    follow_up(state, up, view.gravity, &poses, dt);
                 }
-                Course::constant(finite_or_zero(state.velocity))
-            } else {
-                let gravity = motor.gravity.unwrap_or(view.gravity.length()) * motor.gravity_scale;
-                let mut run = Run {
-                    config,
-                    motor,
-                    intent: &intent,
-                    gravity,
-                    dt,
-                    state,
-                    report,
+                let course = if custom {
+                    let leaves = state.velocity.dot(state.up) > 0.1
+                        && state.velocity.dot(state.ground.normal) > 0.1;
+                    if state.on_ground() && leaves {
+                        leave_ground(config, state);
+                    }
+                    Course::constant(finite_or_zero(state.velocity))
+                } else {
+                    let gravity =
+                        motor.gravity.unwrap_or(view.gravity.length()) * motor.gravity_scale;
+                    let mut run = Run {
+                        config,
+                        motor,
+                        intent: &intent,
+                        gravity,
+                        dt,
+                        state,
+                        report,
+                    };
+                    run.choose_mode(&volumes);
+                    run.course(&volumes)
                 };
-                run.choose_mode(&volumes);
-                run.course(&volumes)
-            };
-            state.velocity = if course.end.length_squared() > STILL * STILL {
-                course.end
-            } else {
-                Vec3::ZERO
-            };
-            report.mean = course.mean;
-            snapshot.active = true;
-            snapshot.velocity = course.mean + state.platform_velocity;
-        },
-    );
+                state.velocity = if course.end.length_squared() > STILL * STILL {
+                    course.end
+                } else {
+                    Vec3::ZERO
+                };
+                report.mean = course.mean;
+                snapshot.active = true;
+                snapshot.velocity = course.mean + state.platform_velocity;
+            },
+        );
 }
 
 /// An intent without numbers that are none; the bad ones count as nothing asked.
