@@ -245,18 +245,17 @@ impl<'a> PhysicsView<'a> {
                 }
             }
         }
-        let slack = obstacle.skin
-            + ahead
-            + if obstacle.motion.is_none() {
-                0.0
-            } else {
-                out.moving = true;
-                let middle = (request.low + request.high) * 0.5;
-                let reach = (request.high - request.low).length() * 0.5;
-                obstacle.motion.reach(middle, reach)
-            };
+        let motion = if obstacle.motion.is_none() {
+            0.0
+        } else {
+            out.moving = true;
+            let middle = (request.low + request.high) * 0.5;
+            let reach = (request.high - request.low).length() * 0.5;
+            obstacle.motion.reach(middle, reach)
+        };
+        out.slack = out.slack.max(motion);
         // Where a character will be is shared out later; until then it stands.
-        out.slack = out.slack.max(slack - ahead);
+        let slack = obstacle.skin + ahead + motion;
         let index = out.obstacles.len() as u32;
         out.obstacles.push(obstacle);
         let pieces = out.pieces.len();

@@ -182,7 +182,7 @@ pub(super) fn apply_effects(
         &RapierRigidBodyHandle,
         &mut CharacterReport,
     )>,
-    mut impulses: Local<Vec<(Entity, RapierContextEntityLink, BodyImpulse)>>,
+    mut impulses: Local<Vec<(Entity, u32, RapierContextEntityLink, BodyImpulse)>>,
 ) {
     impulses.clear();
     impulses.reserve(64);
@@ -191,14 +191,15 @@ pub(super) fn apply_effects(
             continue;
         }
         let report = report.bypass_change_detection();
-        impulses.extend(report.impulses.drain(..).map(|i| (entity, *link, i)));
+        let numbered = (0..).zip(report.impulses.drain(..));
+        impulses.extend(numbered.map(|(n, i)| (entity, n, *link, i)));
         if let Some(target) = report.target.take() {
             worlds.place_body(link, handle, target);
         }
     }
-    // Stable: one character's impulses keep the order in which it met the bodies.
-    impulses.sort_by_key(|(entity, ..)| *entity);
-    for (_, link, i) in impulses.iter() {
+    // One character's impulses keep the order in which it met the bodies.
+    impulses.sort_unstable_by_key(|(entity, n, ..)| (*entity, *n));
+    for (.., link, i) in impulses.iter() {
         worlds.push_body(link, i.body, i.impulse, i.force, i.point, i.wake);
     }
 }

@@ -27,7 +27,6 @@ use crate::{
         checks::{EmbodyDiagnosis, EmbodyProblem},
         world::ForcedBodies,
     },
-    diagnostics::CharacterDiagnostics,
     schedule::{EmbodyCorePlugin, EmbodySystems},
 };
 
@@ -76,24 +75,20 @@ impl Plugin for CharacterPlugin {
             .add_systems(
                 FixedPostUpdate,
                 (
-                    (
-                        checks::check_bodies,
-                        checks::check_surroundings,
-                        guard::keep_finite,
-                        body::build_bodies,
-                        body::resize_colliders,
-                    )
-                        .chain()
+                    // One system each: handing over from one to the next costs an executor with
+                    // threads more than many a character does.
+                    checks::check_bodies
+                        .pipe(checks::check_surroundings)
+                        .pipe(guard::keep_finite)
+                        .pipe(body::build_bodies)
+                        .pipe(body::resize_colliders)
                         .in_set(EmbodySystems::Prepare),
-                    (
-                        measure::start.run_if(resource_exists::<CharacterDiagnostics>),
-                        motor::drive_motors,
-                        drive::refresh_world,
-                        drive::solve_characters,
-                        drive::apply_effects,
-                        measure::stop.run_if(resource_exists::<CharacterDiagnostics>),
-                    )
-                        .chain()
+                    measure::start
+                        .pipe(motor::drive_motors)
+                        .pipe(drive::refresh_world)
+                        .pipe(drive::solve_characters)
+                        .pipe(drive::apply_effects)
+                        .pipe(measure::stop)
                         .in_set(EmbodySystems::Drive),
                     react::trigger_events.in_set(EmbodySystems::React),
                 )

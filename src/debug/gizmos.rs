@@ -5,7 +5,7 @@ use bevy::{color::palettes::tailwind, gizmos::config::GizmoConfigGroup, prelude:
 use super::{
     explain::Explain,
     hull::hull_edges,
-    trail::{StepTrail, lay_trails, remember_steps},
+    trail::{StepTrail, lay_trails, lift_trail, remember_steps},
 };
 use crate::character::{Character, CharacterContacts, CharacterShape, CharacterState};
 
@@ -26,6 +26,7 @@ impl Plugin for EmbodyDebugPlugin {
                 ..default()
             },
         )
+        .add_observer(lift_trail)
         .add_systems(FixedLast, (lay_trails, remember_steps).chain())
         .add_systems(
             PostUpdate,

@@ -70,6 +70,13 @@ pub(super) fn lay_trails(
     }
 }
 
+/// Takes the trail of what is no character any more.
+pub(super) fn lift_trail(removed: On<Remove, Character>, mut commands: Commands) {
+    if let Ok(mut entity) = commands.get_entity(removed.entity) {
+        entity.try_remove::<StepTrail>();
+    }
+}
+
 pub(super) fn remember_steps(
     time: Res<Time<Fixed>>,
     mut characters: Query<(&CharacterContacts, &mut StepTrail)>,

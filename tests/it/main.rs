@@ -1,4 +1,5 @@
 //! Integration tests.
 
 mod character;
+mod debug;
 mod foundation;

@@ -191,7 +191,8 @@ impl Sink<'_, '_> {
     fn push(&mut self, geometry: Geometry) {
         self.neighbourhood.queries += 1;
         let found = self.request.mover.separation(&geometry, &self.request.pose);
-        let clearance = found.distance;
+        let obstacle = &self.neighbourhood.obstacles[self.obstacle as usize];
+        let clearance = found.distance - obstacle.skin;
         // Also drops what is not finite.
         if clearance < self.request.reach + self.slack {
             self.neighbourhood.pieces.push(Piece {

@@ -140,8 +140,7 @@ pub(crate) struct Neighbourhood {
     pub moving: bool,
     /// Entities of the sensors that hold the request's probe point.
     pub volumes: Vec<Entity>,
-    /// How much nearer than at the start of the tick any piece can come by its own motion and by
-    /// its obstacle's thickness, metres.
+    /// How much nearer than at the start of the tick any piece can come by its own motion, metres.
     pub slack: f32,
     order: Vec<(f32, u32)>,
     earlier: Vec<Obstacle>,

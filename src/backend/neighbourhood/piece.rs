@@ -14,7 +14,7 @@ pub(crate) struct Piece {
     pub obstacle: u32,
     /// Which part of its collider it is, for a stable order.
     pub part: u32,
-    /// Distance from the mover at the start of the tick, metres.
+    /// Distance from the mover at the start of the tick, its obstacle's thickness taken off, metres.
     pub clearance: f32,
     /// From the piece to the mover at the start of the tick, unit length.
     pub normal: Vec3,

@@ -1,6 +1,6 @@
 //! The system that runs the motors, and the choice of mode.
 
-use bevy::{math::ops, prelude::*};
+use bevy::{ecs::batching::BatchingStrategy, math::ops, prelude::*};
 use bevy_rapier3d::{plugin::context::RapierContextEntityLink, prelude::RigidBodyDisabled};
 
 use super::{
@@ -52,101 +52,108 @@ pub(crate) fn drive_motors(
     if !(dt > 0.0) {
         return;
     }
-    characters.par_iter_mut().for_each(
-        |(
-            entity,
-            config,
-            motor,
-            intent,
-            body,
-            link,
-            up,
-            (custom, disabled),
-            mut state,
-            mut snapshot,
-            mut report,
-        )| {
-            let Some(view) = worlds.of(link) else { return };
-            if body.mover.is_none() || disabled || !view.active {
-                // Out of the game: nobody waits for it, and nothing happens to it.
-                if snapshot.active {
-                    snapshot.active = false;
-                    snapshot.velocity = Vec3::ZERO;
+    // Most motors have little to do: a task of a few would cost more than it does.
+    let batches = BatchingStrategy::new().min_batch_size(256);
+    characters
+        .par_iter_mut()
+        .batching_strategy(batches)
+        .for_each(
+            |(
+                entity,
+                config,
+                motor,
+                intent,
+                body,
+                link,
+                up,
+                (custom, disabled),
+                mut state,
+                mut snapshot,
+                mut report,
+            )| {
+                let Some(view) = worlds.of(link) else { return };
+                if body.mover.is_none() || disabled || !view.active {
+                    // Out of the game: nobody waits for it, and nothing happens to it.
+                    if snapshot.active {
+                        snapshot.active = false;
+                        snapshot.velocity = Vec3::ZERO;
+                    }
+                    if report.solved || report.woken {
+                        report.solved = false;
+                        report.woken = false;
+                    }
+                    return;
                 }
-                if report.solved || report.woken {
-                    report.solved = false;
-                    report.woken = false;
+                let wanted = up.and_then(|up| wanted_up(entity, &state, up, view.gravity, &poses));
+                let intent = finite(*intent);
+                let at_rest = state.on_ground()
+                    && state.velocity == Vec3::ZERO
+                    && intent.movement == Vec3::ZERO
+                    && !intent.jump
+                    && !state.jump_held
+                    && state.mode == MovementMode::Walk
+                    && state.jump_buffer == 0.0
+                    && state.water.is_none()
+                    && wanted.is_none_or(|wanted| angle_between(state.up, wanted) <= SAME_UP);
+                if at_rest {
+                    if snapshot.active {
+                        snapshot.active = false;
+                        snapshot.velocity = Vec3::ZERO;
+                    }
+                    if report.woken {
+                        report.woken = false;
+                    }
+                    return;
                 }
-                return;
-            }
-            let wanted = up.and_then(|up| wanted_up(entity, &state, up, view.gravity, &poses));
-            let intent = finite(*intent);
-            let at_rest = state.on_ground()
-                && state.velocity == Vec3::ZERO
-                && intent.movement == Vec3::ZERO
-                && !intent.jump
-                && !state.jump_held
-                && state.mode == MovementMode::Walk
-                && state.jump_buffer == 0.0
-                && state.water.is_none()
-                && wanted.is_none_or(|wanted| angle_between(state.up, wanted) <= SAME_UP);
-            if at_rest {
-                if snapshot.active {
-                    snapshot.active = false;
-                    snapshot.velocity = Vec3::ZERO;
+                let state = &mut *state;
+                let report = &mut *report;
+                report.woken = true;
+                report.was = state.ground.state;
+                report.left = state.ground.entity;
+                report.jumped = false;
+                if let (Some(up), Some(wanted)) = (up, wanted) {
+                    // Nobody has to turn to the up that it begins with.
+                    let first = state.last_pose.is_none();
+                    let most = if first {
+                        f32::INFINITY
+                    } else {
+                        up.turn_rate.max(0.0) * dt
+                    };
+                    follow_up(state, wanted, most);
                 }
-                if report.woken {
-                    report.woken = false;
-                }
-                return;
-            }
-            let state = &mut *state;
-            let report = &mut *report;
-            report.woken = true;
-            report.was = state.ground.state;
-            report.left = state.ground.entity;
-            report.jumped = false;
-            if let (Some(up), Some(wanted)) = (up, wanted) {
-                // Nobody has to turn to the up that it begins with.
-                let first = state.last_pose.is_none();
-                let most = if first {
-                    f32::INFINITY
+                let course = if custom {
+                    let leaves = state.velocity.dot(state.up) > 0.1
+                        && state.velocity.dot(state.ground.normal) > 0.1;
+                    if state.on_ground() && leaves {
+                        leave_ground(config, state);
+                    }
+                    Course::constant(finite_or_zero(state.velocity))
                 } else {
-                    up.turn_rate.max(0.0) * dt
+                    let gravity =
+                        motor.gravity.unwrap_or(view.gravity.length()) * motor.gravity_scale;
+                    let mut run = Run {
+                        config,
+                        motor,
+                        intent: &intent,
+                        gravity,
+                        dt,
+                        state,
+                        report,
+                    };
+                    run.choose_mode(&volumes);
+                    run.course(&volumes, &view)
                 };
-                follow_up(state, wanted, most);
-            }
-            let course = if custom {
-                let leaves = state.velocity.dot(state.up) > 0.1
-                    && state.velocity.dot(state.ground.normal) > 0.1;
-                if state.on_ground() && leaves {
-                    leave_ground(config, state);
-                }
-                Course::constant(finite_or_zero(state.velocity))
-            } else {
-                let gravity = motor.gravity.unwrap_or(view.gravity.length()) * motor.gravity_scale;
-                let mut run = Run {
-                    config,
-                    motor,
-                    intent: &intent,
-                    gravity,
-                    dt,
-                    state,
-                    report,
+                state.velocity = if course.end.length_squared() > STILL * STILL {
+                    course.end
+                } else {
+                    Vec3::ZERO
                 };
-                run.choose_mode(&volumes);
-                run.course(&volumes, &view)
-            };
-            state.velocity = if course.end.length_squared() > STILL * STILL {
-                course.end
-            } else {
-                Vec3::ZERO
-            };
-            report.mean = course.mean;
-            snapshot.active = true;
-            snapshot.velocity = (course.mean + state.platform_velocity).clamp_length_max(FASTEST);
-        },
-    );
+                report.mean = course.mean;
+                snapshot.active = true;
+                snapshot.velocity =
+                    (course.mean + state.platform_velocity).clamp_length_max(FASTEST);
+            },
+        );
 }
 
 /// An intent without numbers that are none; the bad ones count as nothing asked.

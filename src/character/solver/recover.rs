@@ -16,7 +16,7 @@ impl Solver<'_> {
             .near
             .pieces
             .iter()
-            .any(|piece| piece.clearance < self.near.obstacle(piece).skin - TOUCH);
+            .any(|piece| piece.clearance < -TOUCH);
         if !inside {
             return p;
         }

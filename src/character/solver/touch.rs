@@ -71,10 +71,11 @@ impl Solver<'_> {
         if !obstacle.motion.is_none() {
             return false;
         }
-        let range = range + obstacle.skin;
         let slack = piece.clearance - range;
         (slack > 0.0 && slack * slack > pose.position.distance_squared(self.pose.position))
-            || self.mover.is_beyond(&piece.geometry, pose, range)
+            || self
+                .mover
+                .is_beyond(&piece.geometry, pose, range + obstacle.skin)
     }
 
     /// Collects everything within `range` of the mover at `p`, at the fraction `t` of the tick.

@@ -64,8 +64,8 @@ impl Tick<'_, '_, '_, '_> {
             |collider, body| around.judge(collider, body, self.config.pushed_by_bodies),
             near,
         );
-        near.sort();
         self.share_gaps(near, displacement);
+        near.sort();
     }
 
     /// How far anything that moves, other than what carries, could push the character this tick.
@@ -115,7 +115,7 @@ impl Tick<'_, '_, '_, '_> {
 
     /// Two characters that close on each other each get their share of the gap between them.
     fn share_gaps(&self, near: &mut Neighbourhood, displacement: Vec3) {
-        for piece in &near.pieces {
+        for piece in &mut near.pieces {
             let obstacle = &mut near.obstacles[piece.obstacle as usize];
             if obstacle.kind != ObstacleKind::Character {
                 continue;
@@ -125,10 +125,11 @@ impl Tick<'_, '_, '_, '_> {
             };
             let mine = approach(displacement, -piece.normal);
             let theirs = approach(other.velocity * self.around.dt, piece.normal);
-            let gap = piece.clearance - obstacle.skin;
+            let gap = piece.clearance;
             if mine + theirs > gap && theirs > 0.0 && gap > 0.0 {
-                obstacle.skin += gap * theirs / (mine + theirs);
-                near.slack = near.slack.max(obstacle.skin);
+                let share = gap * theirs / (mine + theirs);
+                obstacle.skin += share;
+                piece.clearance -= share;
             }
         }
     }
