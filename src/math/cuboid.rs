@@ -19,6 +19,7 @@ pub(crate) struct Cuboid {
 
 impl Cuboid {
     /// Closest pair with the segment `p0 p1`; `up` chooses among faces that share the point.
+    #[inline]
     pub fn closest_to_segment(&self, p0: Vec3, p1: Vec3, up: Vec3) -> Closest {
         let inverse = self.rotation.inverse();
         let q0 = inverse * (p0 - self.center);

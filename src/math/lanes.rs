@@ -12,6 +12,7 @@ pub(crate) struct Lanes {
 
 impl Lanes {
     /// Three vectors, the last one twice.
+    #[inline]
     pub fn new(a: Vec3, b: Vec3, c: Vec3) -> Self {
         Self {
             x: Vec4::new(a.x, b.x, c.x, c.x),
@@ -21,6 +22,7 @@ impl Lanes {
     }
 
     /// One vector in every lane.
+    #[inline]
     pub fn splat(v: Vec3) -> Self {
         Self {
             x: Vec4::splat(v.x),
@@ -29,6 +31,7 @@ impl Lanes {
         }
     }
 
+    #[inline]
     pub fn add(&self, other: &Self) -> Self {
         Self {
             x: self.x + other.x,
@@ -37,6 +40,7 @@ impl Lanes {
         }
     }
 
+    #[inline]
     pub fn sub(&self, other: &Self) -> Self {
         Self {
             x: self.x - other.x,
@@ -46,6 +50,7 @@ impl Lanes {
     }
 
     /// Each vector by its own factor.
+    #[inline]
     pub fn scaled(&self, by: Vec4) -> Self {
         Self {
             x: self.x * by,
@@ -54,10 +59,12 @@ impl Lanes {
         }
     }
 
+    #[inline]
     pub fn dot(&self, other: &Self) -> Vec4 {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    #[inline]
     pub fn cross(&self, other: &Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,

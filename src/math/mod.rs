@@ -31,6 +31,7 @@ pub(crate) struct Closest {
 }
 
 /// Unit vector along `v`, or `or` when `v` has no direction.
+#[inline]
 pub(crate) fn direction_or(v: Vec3, or: Vec3) -> Vec3 {
     let length = v.length();
     if length > 1.0e-12 && length.is_finite() {

@@ -6,6 +6,7 @@ use super::lanes::Lanes;
 
 /// Parameters `(s, t)` in `0..=1` of the closest points of the segments `p0 + s·(p1 − p0)` and
 /// `q0 + t·(q1 − q0)`. Segments without length are points.
+#[inline]
 pub(crate) fn closest_parameters(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f32, f32) {
     const TINY: f32 = 1.0e-12;
     let d1 = p1 - p0;
@@ -44,6 +45,7 @@ pub(crate) fn closest_parameters(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f32
 
 /// As [`closest_parameters`], of one segment along `d1` and four along `d2` that have a length; `r`
 /// leads from their starts to its start.
+#[inline]
 pub(crate) fn closest_parameters_of_four(d1: Vec3, d2: &Lanes, r: &Lanes) -> (Vec4, Vec4) {
     let a = d1.length_squared();
     let per_a = if a > 1.0e-12 { 1.0 / a } else { 0.0 };
@@ -63,6 +65,7 @@ pub(crate) fn closest_parameters_of_four(d1: Vec3, d2: &Lanes, r: &Lanes) -> (Ve
 }
 
 /// The point of the segment `q0 q1` closest to `p`.
+#[inline]
 pub(crate) fn closest_point(p: Vec3, q0: Vec3, q1: Vec3) -> Vec3 {
     let d = q1 - q0;
     let length2 = d.length_squared();

@@ -20,6 +20,7 @@ pub(crate) struct Triangle {
 
 impl Triangle {
     /// The triangle, or `None` when it has no area.
+    #[inline]
     pub fn new(a: Vec3, b: Vec3, c: Vec3) -> Option<Self> {
         let cross = (b - a).cross(c - a);
         let length = cross.length();
@@ -40,6 +41,7 @@ impl Triangle {
     }
 
     /// The edges, one to a lane; the fourth lane repeats the third.
+    #[inline]
     fn edges(&self) -> (Lanes, Lanes) {
         let from = Lanes::new(self.a, self.b, self.c);
         let to = Lanes::new(self.b, self.c, self.a);
@@ -47,6 +49,7 @@ impl Triangle {
     }
 
     /// Closest pair with the segment `p0 p1`. All three edges at once, a lane each.
+    #[inline]
     pub fn closest_to_segment(&self, p0: Vec3, p1: Vec3) -> Closest {
         let n = self.normal;
         let h0 = (p0 - self.a).dot(n);
@@ -137,6 +140,7 @@ impl Triangle {
 
     /// Whether the segment `p0 p1` is farther than `distance` from the triangle for certain: on one
     /// side of its plane, or outside of one of its edges. Cheap, and may miss.
+    #[inline]
     pub fn is_beyond(&self, p0: Vec3, p1: Vec3, distance: f32) -> bool {
         let n = self.normal;
         let h0 = (p0 - self.a).dot(n);

@@ -104,6 +104,7 @@ impl Motion {
         turn: Vec3::ZERO,
     };
 
+    #[inline]
     pub fn is_none(&self) -> bool {
         self.linear == Vec3::ZERO && self.turn == Vec3::ZERO
     }
@@ -119,6 +120,7 @@ impl Motion {
     }
 
     /// Velocity per tick of the point that is at `point` at fraction `t`.
+    #[inline]
     pub fn velocity(&self, point: Vec3, t: f32) -> Vec3 {
         self.linear + self.turn.cross(point - (self.pivot + self.linear * t))
     }
@@ -231,17 +233,20 @@ impl Neighbourhood {
 
     /// How many of the pieces, from the first on, can be within `range` of a mover that is
     /// `distance` from where it started.
+    #[inline]
     pub fn within(&self, range: f32, distance: f32) -> usize {
         let most = range + distance + self.slack;
         self.pieces.partition_point(|piece| piece.clearance <= most)
     }
 
+    #[inline]
     pub fn obstacle(&self, piece: &Piece) -> &Obstacle {
         &self.obstacles[piece.obstacle as usize]
     }
 
     /// Distance of the mover from a piece at the fraction `t` of the tick: closest pair with the
     /// distance measured between the surfaces.
+    #[inline]
     pub fn separation(&mut self, index: usize, mover: &Mover, pose: &MoverPose, t: f32) -> Closest {
         self.queries += 1;
         let piece = &self.pieces[index];

@@ -32,6 +32,7 @@ pub(crate) struct MoverPose {
 }
 
 impl MoverPose {
+    #[inline]
     pub fn at(self, position: Vec3) -> Self {
         Self { position, ..self }
     }
@@ -150,6 +151,7 @@ impl Mover {
     }
 
     /// Whether a piece is farther than `distance` from the surface for certain. Cheap, and may miss.
+    #[inline]
     pub fn is_beyond(&self, geometry: &Geometry, pose: &MoverPose, distance: f32) -> bool {
         match (&self.core, geometry) {
             (Core::Axis { low, high }, Geometry::Triangle(triangle)) => triangle.is_beyond(
@@ -162,6 +164,7 @@ impl Mover {
     }
 
     /// Distance from a piece, measured between the surfaces.
+    #[inline]
     pub fn separation(&self, geometry: &Geometry, pose: &MoverPose) -> Closest {
         let mut found = match &self.core {
             Core::Axis { low, high } => axis_to(
