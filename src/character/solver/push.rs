@@ -2,8 +2,9 @@
 //!
 //! A contact with a body is a plastic impact between the character's mass and the mass that the
 //! body opposes at the contact: both go on with the common velocity. What the character gives is
-//! limited by its strength times the tick, so a heavy box does not move and a light one never
-//! becomes faster than the character; on top of its feet its weight is not limited. What it
+//! limited by its strength times the tick, so a heavy box does not move, and a light one leaves the
+//! contact at the character's speed along the normal and no faster; what other contacts and the
+//! physics step then make of it is theirs. On top of its feet its weight is not limited. What it
 //! receives is not limited: a truck wins.
 //!
 //! The impulse enters the body before the physics step, and the body's predicted motion with it, so

@@ -304,3 +304,39 @@ fn two_flush_height_fields_have_no_seam() {
         );
     }
 }
+
+#[test]
+fn a_character_below_a_parent_walks_in_the_axes_of_the_world() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let parent =
+            sim.spawn(Transform::from_xyz(5.0, 1.0, 3.0).with_rotation(Quat::from_rotation_y(1.0)));
+        let who = sim.spawn((
+            Character::default(),
+            prompt(),
+            Transform::from_xyz(0.0, -1.0, 0.0),
+            ChildOf(parent),
+        ));
+        let at = |sim: &Sim| sim.get::<GlobalTransform>(who).translation();
+        sim.seconds(0.3);
+        found.at_most(
+            format!("{hz} Hz: begins"),
+            at(&sim).distance(Vec3::new(5.0, 0.0, 3.0)),
+            0.001,
+        );
+        sim.walk(who, Vec3::X);
+        sim.seconds(1.0);
+        found.at_most(
+            format!("{hz} Hz: walks"),
+            at(&sim).distance(Vec3::new(10.0, 0.0, 3.0)),
+            0.005,
+        );
+        sim.walk(who, Vec3::ZERO);
+        sim.ticks(2);
+        let start = at(&sim);
+        sim.seconds(2.0);
+        found.at_most(format!("{hz} Hz: rests"), at(&sim).distance(start), 0.0001);
+    }
+}

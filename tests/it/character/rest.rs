@@ -1,7 +1,10 @@
 //! Characters that have nothing to do: what they still tell, and that they are left alone.
 
-use bevy::prelude::*;
-use bevy_embody::{CharacterDiagnostics, EmbodyDiagnosticsPlugin, prelude::*};
+use bevy::{
+    diagnostic::{Diagnostic, DiagnosticsPlugin, DiagnosticsStore},
+    prelude::*,
+};
+use bevy_embody::prelude::*;
 use embody_scenes::Sim;
 
 use super::support::*;
@@ -114,7 +117,7 @@ fn the_diagnostics_publish_time_queries_and_counts_of_each_tick() {
         60.0,
         (
             EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>(),
-            bevy::diagnostic::DiagnosticsPlugin,
+            DiagnosticsPlugin,
             EmbodyDiagnosticsPlugin,
         ),
     );
@@ -128,10 +131,7 @@ fn the_diagnostics_publish_time_queries_and_counts_of_each_tick() {
     assert_eq!((measured.characters, measured.idle), (2, 1));
     assert!(measured.queries > 0, "a walker asks for distances");
     assert!(!measured.tick_time.is_zero(), "and that takes time");
-    let store = sim
-        .app
-        .world()
-        .resource::<bevy::diagnostic::DiagnosticsStore>();
+    let store = sim.app.world().resource::<DiagnosticsStore>();
     for (path, wanted) in [
         (&CharacterDiagnostics::CHARACTERS, Some(2.0)),
         (&CharacterDiagnostics::IDLE, Some(1.0)),
@@ -144,7 +144,7 @@ fn the_diagnostics_publish_time_queries_and_counts_of_each_tick() {
             Some(measured.tick_time.as_secs_f64() * 1000.0),
         ),
     ] {
-        let published = store.get(path).and_then(|diagnostic| diagnostic.value());
+        let published = store.get(path).and_then(Diagnostic::value);
         assert_eq!(published, wanted, "{path}");
     }
 }

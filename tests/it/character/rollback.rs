@@ -255,7 +255,6 @@ fn a_save_restored_gives_the_same_ticks_again_across_stances_bodies_water_and_la
                             // Up, half way down, and up again within the stretch.
                             intent.stance = match tick / 15 {
                                 0 => stance,
-                                1 => Stance::Stand,
                                 2 => Stance::Height(1.3),
                                 _ => Stance::Stand,
                             };

@@ -395,3 +395,65 @@ fn without_a_direction_of_its_own_the_first_up_is_that_of_the_transform() {
         );
     }
 }
+
+#[test]
+fn every_shape_stands_walks_and_is_stopped_by_walls_when_up_leans() {
+    let mut found = Findings::new();
+    let hull: Vec<Vec3> = [0.0, 1.8]
+        .iter()
+        .flat_map(|y| [-0.3, 0.3].map(|x| [-0.3, 0.3].map(|z| Vec3::new(x, *y, z))))
+        .flatten()
+        .collect();
+    let hull = Character {
+        shape: CharacterShape::ConvexHull { points: hull },
+        ..default()
+    };
+    for hz in [30.0, 60.0, 240.0] {
+        for up in [
+            Vec3::new(1.0, 1.0, 0.0).normalize(),
+            Vec3::new(-0.5, 0.3, 0.8).normalize(),
+        ] {
+            for (name, shape) in [
+                ("capsule", Character::capsule(0.3, 1.8)),
+                ("cylinder", Character::cylinder(0.3, 1.8)),
+                ("box", Character::cuboid(0.6, 1.8, 0.6)),
+                ("hull", hull.clone()),
+            ] {
+                let mut sim = Sim::new(hz);
+                let turn = Quat::from_rotation_arc(Vec3::Y, up);
+                let place = |at: Vec3| Transform::from_translation(turn * at).with_rotation(turn);
+                sim.fixed(Collider::cuboid(20.0, 0.5, 20.0), place(Vec3::Y * -0.5));
+                sim.fixed(
+                    Collider::cuboid(0.5, 2.0, 10.0),
+                    place(Vec3::new(3.5, 2.0, 0.0)),
+                );
+                let who = sim.spawn((
+                    shape,
+                    CharacterMotor {
+                        gravity: Some(G),
+                        ..prompt()
+                    },
+                    up_at_once(UpDirection::World(up)),
+                    place(Vec3::Y * 0.1),
+                ));
+                sim.seconds(0.5);
+                let at = |sim: &Sim| turn.inverse() * sim.position(who);
+                let case = format!("{hz} Hz {name} up {up}");
+                found.holds(format!("{case}: stands"), sim.state(who).on_ground());
+                found.near(format!("{case}: foot"), at(&sim).y, 0.0, 0.001);
+                sim.walk(who, turn * Vec3::Z);
+                sim.seconds(1.0);
+                found.near(format!("{case}: walks"), at(&sim).z, 5.0, 0.005);
+                sim.walk(who, turn * Vec3::X);
+                let mut deepest = f32::MIN;
+                for _ in 0..hz as usize {
+                    sim.ticks(1);
+                    deepest = deepest.max(at(&sim).x);
+                }
+                found.near(format!("{case}: stops"), at(&sim).x, 2.7, 0.01);
+                found.at_most(format!("{case}: never inside"), deepest, 2.701);
+                found.near(format!("{case}: stays down"), at(&sim).y, 0.0, 0.002);
+            }
+        }
+    }
+}
