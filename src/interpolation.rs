@@ -21,7 +21,7 @@
 //! The easing itself is that of [`bevy_transform_interpolation`].
 
 use bevy::{ecs::system::SystemChangeTick, prelude::*};
-use bevy_rapier3d::{plugin::systems::update_character_controls, prelude::*};
+use bevy_rapier3d::prelude::{PhysicsSet, RigidBody};
 use bevy_transform_interpolation::{
     LastEasingTick, NoTransformEasing, RotationEasingState, TransformEasingPlugin,
     TransformEasingSystems, TranslationEasingState, prelude::TransformInterpolationPlugin,
@@ -31,7 +31,7 @@ use bevy_transform_interpolation::{
 // Not by glob: Rapier's `TransformInterpolation` is another thing of the same name.
 pub use bevy_transform_interpolation::prelude::{RotationInterpolation, TranslationInterpolation};
 
-use crate::Teleported;
+use crate::{Teleported, backend::handles::update_character_controls};
 
 /// Shows this entity between the poses of the last two ticks; see the [module](self).
 ///

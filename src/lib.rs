@@ -6,8 +6,6 @@
 mod backend;
 #[cfg(all(feature = "character", any(feature = "debug", feature = "egui")))]
 pub mod debug;
-#[cfg(feature = "character")]
-mod diagnostics;
 pub mod interpolation;
 #[cfg(feature = "character")]
 mod math;
@@ -20,12 +18,12 @@ pub mod character;
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
 pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
+#[cfg(feature = "character")]
+pub use character::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
 #[cfg(all(feature = "character", feature = "debug"))]
 pub use debug::EmbodyDebugPlugin;
 #[cfg(all(feature = "character", feature = "egui"))]
 pub use debug::EmbodyInspectorPlugin;
-#[cfg(feature = "character")]
-pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
 pub use teleport::Teleported;
 

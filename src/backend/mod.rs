@@ -1,6 +1,7 @@
 //! The only place that names Rapier's internals: everything above works on plain geometry.
 
 pub(crate) mod checks;
+pub(crate) mod handles;
 mod hierarchy;
 pub(crate) mod setup;
 pub(crate) mod teleport;

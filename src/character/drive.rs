@@ -5,10 +5,7 @@
 //! wishes, and every effect is collected first, so neither threads nor order matter.
 
 use bevy::{ecs::batching::BatchingStrategy, prelude::*, utils::Parallel};
-use bevy_rapier3d::{
-    plugin::context::RapierContextEntityLink,
-    prelude::{Collider, CollisionGroups, RapierColliderHandle, RapierRigidBodyHandle},
-};
+use bevy_rapier3d::prelude::{Collider, CollisionGroups};
 
 use super::{
     body::CharacterBody,
@@ -27,6 +24,7 @@ use super::{
 };
 use crate::backend::{
     activity::Activity,
+    handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
     world::{PhysicsWorlds, PhysicsWorldsMut},
 };
 

@@ -2,8 +2,9 @@
 
 use bevy::{platform::time::Instant, prelude::*};
 
-use super::{output::CharacterContacts, report::CharacterReport};
-use crate::diagnostics::CharacterDiagnostics;
+use super::{
+    diagnostics::CharacterDiagnostics, output::CharacterContacts, report::CharacterReport,
+};
 
 /// When this tick's work began.
 #[derive(Resource, Default)]

@@ -1,7 +1,7 @@
 //! The system that runs the motors, and the choice of mode.
 
 use bevy::{ecs::batching::BatchingStrategy, math::ops, prelude::*};
-use bevy_rapier3d::{plugin::context::RapierContextEntityLink, prelude::RigidBodyDisabled};
+use bevy_rapier3d::prelude::RigidBodyDisabled;
 
 use super::{
     CharacterMotor, Course, CustomMotor,
@@ -10,7 +10,10 @@ use super::{
     walk::walk,
 };
 use crate::{
-    backend::world::{PhysicsView, PhysicsWorlds},
+    backend::{
+        handles::RapierContextEntityLink,
+        world::{PhysicsView, PhysicsWorlds},
+    },
     character::{
         body::{self, CharacterBody},
         config::{Character, LeaveVelocity},

@@ -5,7 +5,6 @@ mod outcome;
 mod surroundings;
 
 use bevy::{math::ops, prelude::*};
-use bevy_rapier3d::prelude::RapierRigidBodyHandle;
 
 use super::{
     body::{self, CharacterBody},
@@ -18,7 +17,7 @@ use super::{
     solver::{Bend, Growth, Scratch, Solver},
     state::{CharacterState, GroundState, MovementMode},
 };
-use crate::backend::{neighbourhood::MoverPose, world::WorldPose};
+use crate::backend::{handles::RapierRigidBodyHandle, neighbourhood::MoverPose, world::WorldPose};
 
 use outcome::support_velocity;
 pub(super) use surroundings::{Surroundings, Volume};
