@@ -70,6 +70,12 @@ impl Plugin for EmbodyInterpolationPlugin {
             use crate::character::Character;
             let _ = app.try_register_required_components::<Character, Interpolated>();
             let _ = app.try_register_required_components::<Character, MovedBySolver>();
+            // What is no character any more is moved by the game again.
+            app.add_observer(|removed: On<Remove, Character>, mut commands: Commands| {
+                if let Ok(mut entity) = commands.get_entity(removed.entity) {
+                    entity.try_remove::<MovedBySolver>();
+                }
+            });
         }
 
         app.add_systems(

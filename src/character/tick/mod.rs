@@ -59,12 +59,17 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         contacts: &'a mut Mut<'b, CharacterContacts>,
         report: &'a mut Mut<'b, CharacterReport>,
     ) -> Option<Self> {
-        let (now, asked) = around.view.body_pose(handle)?;
+        let (now, mut asked) = around.view.body_pose(handle)?;
         let mover = body.mover.as_ref()?;
         // Rounding on the way through the physics world and the transform is no placement: then
         // the state knows better. A turn by the game is none either: it takes nobody off the
         // ground.
-        let sound = asked.position.is_finite() && asked.rotation.is_normalized();
+        let length = asked.rotation.length();
+        let sound = asked.position.is_finite() && length > 1.0e-3 && length.is_finite();
+        if sound && !asked.rotation.is_normalized() {
+            // As below a parent that is stretched.
+            asked.rotation = asked.rotation.normalize();
+        }
         let kept = state.last_pose.map(|pose| WorldPose {
             position: pose.position,
             rotation: pose.rotation,
