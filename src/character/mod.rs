@@ -24,7 +24,6 @@ use bevy::prelude::*;
 use crate::schedule::EmbodyCorePlugin;
 use crate::{
     backend::{activity::Activity, world::ForcedBodies},
-    diagnostics::CharacterDiagnostics,
     schedule::EmbodySystems,
 };
 
