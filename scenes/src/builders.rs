@@ -75,6 +75,21 @@ pub struct StairCeiling {
 }
 
 impl Stairs {
+    /// Where a tread begins and ends and how high it is, metres; the lower landing is number -1.
+    fn tread(&self, i: i32) -> (f32, f32, f32) {
+        let start = if i < 0 {
+            -self.landing
+        } else {
+            i as f32 * self.tread
+        };
+        let end = if i == self.steps as i32 - 1 {
+            self.last_riser() + self.landing
+        } else {
+            (i + 1) as f32 * self.tread
+        };
+        (start, end, (i + 1) as f32 * self.rise)
+    }
+
     /// Height of the whole flight, metres.
     pub fn height(&self) -> f32 {
         self.steps as f32 * self.rise
@@ -214,17 +229,7 @@ impl Sim {
         match stairs.make {
             Make::Boxes => {
                 for i in -1..n {
-                    let top = (i + 1) as f32 * stairs.rise;
-                    let start = if i < 0 {
-                        -stairs.landing
-                    } else {
-                        i as f32 * stairs.tread
-                    };
-                    let end = if i == n - 1 {
-                        stairs.last_riser() + stairs.landing
-                    } else {
-                        (i + 1) as f32 * stairs.tread
-                    };
+                    let (start, end, top) = stairs.tread(i);
                     self.fixed(
                         Collider::cuboid((end - start) * 0.5, (top + 1.0) * 0.5, w * 0.5),
                         place(Vec3::new((start + end) * 0.5, (top - 1.0) * 0.5, 0.0)),
@@ -235,17 +240,7 @@ impl Sim {
                 let mut mesh = Patch::default();
                 let z = Vec3::Z * w;
                 for i in -1..n {
-                    let top = (i + 1) as f32 * stairs.rise;
-                    let start = if i < 0 {
-                        -stairs.landing
-                    } else {
-                        i as f32 * stairs.tread
-                    };
-                    let end = if i == n - 1 {
-                        stairs.last_riser() + stairs.landing
-                    } else {
-                        (i + 1) as f32 * stairs.tread
-                    };
+                    let (start, end, top) = stairs.tread(i);
                     let left = Vec3::new(start, top, w * -0.5);
                     mesh.add(left, z, Vec3::X * (end - start), 4, 1);
                     if i < n - 1 {

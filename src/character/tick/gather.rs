@@ -8,6 +8,10 @@ use crate::{
     character::solver::Solver,
 };
 
+/// How much farther than the way goes is looked, metres.
+const MARGIN: f32 = 0.05;
+/// What of it is not needed to find what is touched, metres.
+const SPARE: f32 = 0.04;
 /// Part of a motion past another character that may be turned towards it.
 const ASIDE: f32 = 0.5;
 
@@ -31,7 +35,7 @@ impl Tick<'_, '_, '_, '_> {
         };
         let above = growth + if wide { step + 0.05 } else { 0.0 };
         let aside = if wide { mover.width + min_width } else { 0.0 };
-        let margin = 0.05 + self.push;
+        let margin = MARGIN + self.push;
         let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
         let foot = pose.position - up * below;
         let head = pose.position + up * (2.0 * mover.middle + above);
@@ -69,13 +73,7 @@ impl Tick<'_, '_, '_, '_> {
     }
 
     /// How far anything that moves, other than what carries, could push the character this tick.
-    pub(super) fn push_ahead(
-        &self,
-        near: &Neighbourhood,
-        mover: &Mover,
-        pose: MoverPose,
-        displacement: Vec3,
-    ) -> f32 {
+    pub(super) fn push_ahead(&self, near: &Neighbourhood, displacement: Vec3) -> f32 {
         if !near.moving {
             return 0.0;
         }
@@ -86,12 +84,17 @@ impl Tick<'_, '_, '_, '_> {
             if obstacle.motion.is_none() || Some(obstacle.entity) == carrier {
                 continue;
             }
-            let way = obstacle.motion.reach(pose.position, 2.0 * mover.reach);
-            if piece.clearance < way + displacement.length() {
-                push = push.max(way);
+            // What goes away or past does not push; what turns comes round by more than it heads for.
+            let motion = &obstacle.motion;
+            let turn = motion.turn.length();
+            let arm = (piece.point - motion.pivot).length() + displacement.length();
+            let ahead = motion.velocity(piece.point, 0.0).dot(piece.normal) + turn * turn * arm;
+            if piece.clearance < ahead + displacement.length() {
+                push = push.max(ahead);
             }
         }
-        push
+        // A little is within the margin of every look.
+        if push > SPARE { push } else { 0.0 }
     }
 
     /// Looks again as far as a step reaches, for a motion that was stopped in the near neighbourhood.

@@ -179,7 +179,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         let growth = wanted.map_or(0.0, |height| (height - self.state.height).max(0.0));
 
         self.gather(&mut scratch.near, &mover, pose, displacement, growth, false);
-        self.push = self.push_ahead(&scratch.near, &mover, pose, displacement);
+        self.push = self.push_ahead(&scratch.near, displacement);
         if self.push > 0.0 {
             self.gather(&mut scratch.near, &mover, pose, displacement, growth, false);
         }

@@ -12,18 +12,6 @@ use embody_scenes::Sim;
 
 use super::support::*;
 
-/// A box slab: its origin is its middle, its top 0.25 m above.
-fn board() -> Collider {
-    Collider::cuboid(3.0, 0.25, 3.0)
-}
-
-/// Half a second at rest, then `path` with its own time.
-fn later(
-    path: impl Fn(f64) -> DVec3 + Send + Sync + 'static,
-) -> impl Fn(f64) -> Transform + Send + Sync {
-    move |t| Transform::from_translation(path((t - 0.5).max(0.0)).as_vec3())
-}
-
 /// Jumps off a platform that moves with `velocity`; returns the velocity in the world a moment later.
 fn leave(hz: f64, velocity: DVec3, rule: LeaveVelocity) -> Vec3 {
     let mut sim = Sim::new(hz);

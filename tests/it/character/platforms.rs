@@ -21,18 +21,6 @@ fn slab() -> Collider {
     )])
 }
 
-/// A box slab: its origin is its middle, its top 0.25 m above.
-fn board() -> Collider {
-    Collider::cuboid(3.0, 0.25, 3.0)
-}
-
-/// Half a second at rest, then `path` with its own time.
-fn later(
-    path: impl Fn(f64) -> DVec3 + Send + Sync + 'static,
-) -> impl Fn(f64) -> Transform + Send + Sync {
-    move |t| Transform::from_translation(path((t - 0.5).max(0.0)).as_vec3())
-}
-
 /// Goes to and fro at constant speed with this stroke, metres.
 fn triangle_wave(t: f64, speed: f64, stroke: f64) -> f64 {
     let phase = (t * speed / stroke).rem_euclid(2.0);

@@ -217,6 +217,18 @@ pub fn depth(sim: &mut Sim, character: Entity) -> (f32, Option<Entity>) {
         .fold((-0.5, None), |a, b| if b.0 > a.0 { b } else { a })
 }
 
+/// A box slab: its origin is its middle, its top 0.25 m above.
+pub fn board() -> Collider {
+    Collider::cuboid(3.0, 0.25, 3.0)
+}
+
+/// Half a second at rest, then `path` with its own time.
+pub fn later(
+    path: impl Fn(f64) -> DVec3 + Send + Sync + 'static,
+) -> impl Fn(f64) -> Transform + Send + Sync {
+    move |t| Transform::from_translation(path((t - 0.5).max(0.0)).as_vec3())
+}
+
 /// Everything that happened, with the tick.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct EventLog {
