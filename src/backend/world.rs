@@ -526,48 +526,52 @@ impl PhysicsWorldsMut<'_, '_> {
                 body.apply_impulse_at_point(impulse, point, wake);
             }
             if force != Vec3::ZERO {
-                if !self
-                    .forced
-                    .0
-                    .iter()
-                    .any(|f| f.link == link.0 && f.body == handle)
-                {
-                    self.forced.0.push(Forced {
-                        link: link.0,
-                        body: handle,
-                        force: body.user_force(),
-                        torque: body.user_torque(),
-                    });
-                }
+                let before = (body.user_force(), body.user_torque());
                 body.add_force_at_point(force, point, wake);
+                let after = (body.user_force(), body.user_torque());
+                self.forced.0.push(Forced {
+                    link: link.0,
+                    body: handle,
+                    before,
+                    after,
+                });
             }
         }
     }
 
-    /// Gives the bodies back the forces that they had before the tick.
+    /// Gives the bodies back the forces that they had before the last tick's pushes, unless the game
+    /// gave them others meanwhile.
     pub fn end_forces(&mut self) {
-        for forced in self.forced.0.drain(..) {
+        // The last push of a body is undone first.
+        for forced in self.forced.0.drain(..).rev() {
             if let Ok((_, _, mut bodies)) = self.contexts.get_mut(forced.link)
                 && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(forced.body)
+                && (body.user_force(), body.user_torque()) == forced.after
             {
                 body.reset_forces(false);
                 body.reset_torques(false);
-                body.add_force(forced.force, false);
-                body.add_torque(forced.torque, false);
+                body.add_force(forced.before.0, false);
+                body.add_torque(forced.before.1, false);
             }
         }
     }
 }
 
-/// The forces of a body before a tick's pushes.
+/// The force and torque of a body before and after a tick's pushes.
 #[derive(Clone, Copy)]
 struct Forced {
     link: Entity,
     body: RigidBodyHandle,
-    force: Vec3,
-    torque: Vec3,
+    before: (Vec3, Vec3),
+    after: (Vec3, Vec3),
 }
 
-/// The bodies that are pushed in this tick; empty between ticks.
-#[derive(Resource, Default)]
+/// The pushes of this tick, in their order; empty between ticks.
+#[derive(Resource)]
 pub(crate) struct ForcedBodies(Vec<Forced>);
+
+impl Default for ForcedBodies {
+    fn default() -> Self {
+        Self(Vec::with_capacity(256))
+    }
+}

@@ -45,6 +45,10 @@ pub use surface::{
     SurfaceVelocity, UpDirection, WaterVolume,
 };
 
+/// The one system that solves all characters.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct SolveCharacters;
+
 /// Adds the character controller. Needs [`EmbodyCorePlugin`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CharacterPlugin;
@@ -91,15 +95,19 @@ impl Plugin for CharacterPlugin {
                         .pipe(drive::solve_characters)
                         .pipe(drive::apply_effects)
                         .pipe(measure::stop)
+                        .in_set(SolveCharacters)
                         .in_set(EmbodySystems::Drive),
                     react::trigger_events.in_set(EmbodySystems::React),
                 )
                     .run_if(any_with_component::<Character>),
             )
-            // Also when the last character is gone; and before the game's own forces are taken over.
+            // Also when the last character is gone. Rapier's list of changed bodies has got its memory
+            // by then.
             .add_systems(
                 FixedPostUpdate,
-                drive::end_forces.in_set(EmbodySystems::Prepare),
+                drive::end_forces
+                    .in_set(EmbodySystems::Drive)
+                    .before(SolveCharacters),
             );
     }
 

@@ -149,6 +149,18 @@ pub(crate) struct Neighbourhood {
 }
 
 impl Neighbourhood {
+    /// Empty, with room for more than is usually near.
+    pub fn with_room() -> Self {
+        Self {
+            obstacles: Vec::with_capacity(64),
+            pieces: Vec::with_capacity(512),
+            volumes: Vec::with_capacity(8),
+            order: Vec::with_capacity(512),
+            earlier: Vec::with_capacity(64),
+            ..default()
+        }
+    }
+
     /// Forgets everything but keeps the memory.
     pub fn clear(&mut self) {
         self.obstacles.clear();

@@ -49,7 +49,6 @@ const SUPPORT: f32 = 2.0e-3;
 const SLOPE_SLACK: f32 = 5.0e-4;
 
 /// Buffers that a solve needs; kept between ticks, one per thread.
-#[derive(Default)]
 pub(super) struct Scratch {
     pub near: Neighbourhood,
     touches: Vec<Touch>,
@@ -57,6 +56,20 @@ pub(super) struct Scratch {
     stops: Vec<slide::Stop>,
     pub blockers: Vec<Blocker>,
     pub impulses: Vec<Impulse>,
+}
+
+impl Default for Scratch {
+    /// With room for more than a usual tick needs.
+    fn default() -> Self {
+        Self {
+            near: Neighbourhood::with_room(),
+            touches: Vec::with_capacity(128),
+            planes: Vec::with_capacity(128),
+            stops: Vec::with_capacity(64),
+            blockers: Vec::with_capacity(64),
+            impulses: Vec::with_capacity(16),
+        }
+    }
 }
 
 /// One character in one tick.
