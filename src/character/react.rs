@@ -14,6 +14,8 @@ pub(super) fn trigger_events(
     mut happened: Local<Vec<Entity>>,
 ) {
     happened.clear();
+    // Room for more than a usual tick needs.
+    happened.reserve(64);
     happened.extend(
         characters
             .iter()
