@@ -435,7 +435,6 @@ impl PhysicsWorldsMut<'_, '_> {
             if !collider.is_enabled() || !aabb.mins.is_finite() || !aabb.maxs.is_finite() {
                 continue;
             }
-            activity.mark(aabb.mins, aabb.maxs);
             let simulation = &mut *simulation;
             // A body that moves this tick has its whole way in the tree already.
             let pipeline = simulation.broad_phase.as_query_pipeline(
@@ -448,6 +447,8 @@ impl PhysicsWorldsMut<'_, '_> {
                 Some(node) => node.aabb().merged(&aabb),
                 None => aabb,
             };
+            // Also where it was: ground that shrinks leaves somebody without.
+            activity.mark(aabb.mins, aabb.maxs);
             simulation
                 .broad_phase
                 .set_aabb(&simulation.integration_parameters, handle.0, aabb);

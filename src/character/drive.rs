@@ -91,7 +91,7 @@ pub(super) fn solve_characters(
     walls: Query<(), With<NotPushable>>,
     volumes: Query<Volume>,
     mut characters: Query<(
-        (Entity, &Character, &CharacterMotor, &CharacterIntent),
+        (Entity, Ref<Character>, &CharacterMotor, &CharacterIntent),
         (&RapierContextEntityLink, &RapierRigidBodyHandle),
         (
             Option<Ref<CollisionGroups>>,
@@ -132,7 +132,8 @@ pub(super) fn solve_characters(
                 let filters = u8::from(groups.is_some())
                     | u8::from(filter.is_some()) << 1
                     | u8::from(ignores.is_some()) << 2;
-                let filters_changed = body.filters != filters
+                let settings_changed = config.is_changed()
+                    || body.filters != filters
                     || groups.as_ref().is_some_and(Ref::is_changed)
                     || filter.as_ref().is_some_and(Ref::is_changed)
                     || ignores.as_ref().is_some_and(Ref::is_changed);
@@ -140,7 +141,7 @@ pub(super) fn solve_characters(
                     body.bypass_change_detection().filters = filters;
                 }
                 let surroundings = Surroundings {
-                    filters_changed,
+                    settings_changed,
                     entity,
                     view,
                     dt,
@@ -155,7 +156,7 @@ pub(super) fn solve_characters(
                 };
                 let Some(tick) = Tick::begin(
                     &surroundings,
-                    config,
+                    &config,
                     motor,
                     intent,
                     handle,

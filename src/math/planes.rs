@@ -50,14 +50,18 @@ pub(crate) fn add(planes: &mut Vec<HalfSpace>, plane: HalfSpace) {
     }
 }
 
+/// Slack on every plane, metres.
 const TOLERANCE: f64 = 1.0e-9;
+/// Slack on every plane per metre of motion: normals come in single precision, and two walls that
+/// face each other but for its rounding would else make a wedge that nothing leaves.
+const ROUNDING: f64 = 2.0e-7;
 /// An answer farther than this many times the largest push comes out of planes that are parallel
 /// but for rounding, or out of a wedge so sharp that what it presses on gives way before.
 const FAR: f64 = 3.0;
 
 /// The nearest point to `x0` that keeps all `planes`, or `None` if there is none.
 pub(crate) fn nearest(x0: DVec3, planes: &[HalfSpace]) -> Option<DVec3> {
-    let slack = TOLERANCE * (1.0 + x0.length());
+    let slack = TOLERANCE + ROUNDING * x0.length();
     let push = planes.iter().map(|p| p.bound).fold(0.0, f64::max);
     // Where nothing pushes, standing still is allowed, so the nearest point is no farther than `x0`.
     let most = x0.length() + FAR * push + slack;

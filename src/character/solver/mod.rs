@@ -54,6 +54,7 @@ pub(super) struct Scratch {
     touches: Vec<Touch>,
     planes: Vec<HalfSpace>,
     stops: Vec<slide::Stop>,
+    overrun: Vec<u32>,
     pub blockers: Vec<Blocker>,
     pub impulses: Vec<Impulse>,
 }
@@ -66,6 +67,7 @@ impl Default for Scratch {
             touches: Vec::with_capacity(128),
             planes: Vec::with_capacity(128),
             stops: Vec::with_capacity(64),
+            overrun: Vec::with_capacity(16),
             blockers: Vec::with_capacity(64),
             impulses: Vec::with_capacity(16),
         }
@@ -86,6 +88,8 @@ pub(super) struct Solver<'a> {
     touched_at: (Vec3, f32),
     planes: &'a mut Vec<HalfSpace>,
     stops: &'a mut Vec<slide::Stop>,
+    /// Obstacles that gave way to others in the running slide: it goes into them.
+    overrun: &'a mut Vec<u32>,
     pub blockers: &'a mut Vec<Blocker>,
     pub impulses: &'a mut Vec<Impulse>,
     /// Own velocity, relative to what carries, metres per second.
@@ -96,6 +100,8 @@ pub(super) struct Solver<'a> {
     pub grounded: bool,
     /// Whether two things that close on each other hold it.
     pub pinned: bool,
+    /// Whether sweeps find everything where it is, as if nothing moved.
+    frozen: bool,
     /// The attempt to climb a step in this tick.
     pub step: Option<StepAttempt>,
     cos_slope: f32,
@@ -113,6 +119,7 @@ impl<'a> Solver<'a> {
         let limit = (config.max_slope + SLOPE_SLACK).min(core::f32::consts::FRAC_PI_2);
         let (sin_slope, cos_slope) = ops::sin_cos(limit);
         scratch.blockers.clear();
+        scratch.overrun.clear();
         scratch.impulses.clear();
         Self {
             config,
@@ -125,12 +132,14 @@ impl<'a> Solver<'a> {
             touched_at: (Vec3::NAN, 0.0),
             planes: &mut scratch.planes,
             stops: &mut scratch.stops,
+            overrun: &mut scratch.overrun,
             blockers: &mut scratch.blockers,
             impulses: &mut scratch.impulses,
             velocity: Vec3::ZERO,
             carry: Vec3::ZERO,
             grounded: false,
             pinned: false,
+            frozen: false,
             step: None,
             cos_slope,
             sin_slope,

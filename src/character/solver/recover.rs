@@ -49,7 +49,9 @@ impl Solver<'_> {
         let (x, _) = nearest_yielding(bevy::math::DVec3::ZERO, self.planes);
         let x = x.as_vec3().clamp_length_max(most);
         // What is overlapped lets go; everything else stops the way out.
-        let s = self.sweep(p, x, 1.0e-9, 1.0);
+        self.frozen = true;
+        let s = self.sweep(p, x, 0.0, 1.0);
+        self.frozen = false;
         p + x * s
     }
 }

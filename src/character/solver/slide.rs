@@ -41,6 +41,7 @@ impl Solver<'_> {
         let mut wish = displacement;
         let before = self.velocity;
         self.stops.clear();
+        self.overrun.clear();
         for _ in 0..SWEEPS {
             self.touch(p, t, TOUCH);
             let rest = self.bend(wish, before, t, ground);
@@ -55,6 +56,7 @@ impl Solver<'_> {
                 break;
             }
         }
+        self.overrun.clear();
         p
     }
 
@@ -77,6 +79,18 @@ impl Solver<'_> {
                 self.planes,
                 HalfSpace::new(touch.normal, push - gap, yields),
             );
+            let motion = &self.near.obstacles[touch.obstacle as usize].motion;
+            if motion.turn != Vec3::ZERO && touch.on_face && touch.bend == Bend::Wall {
+                // A face that turns is met again and again unless the way ends before it as well.
+                let turned = Quat::from_scaled_axis(motion.turn * (1.0 - t)) * touch.normal;
+                let push = motion.rest(touch.point, t).dot(turned);
+                let pushes = yields != ObstacleKind::Dynamic as u8 || self.config.pushed_by_bodies;
+                let push = if pushes { push } else { push.min(0.0) };
+                // Beside the touched point a round body comes nearer to a face that leans towards it.
+                let lean = (1.0 - turned.dot(touch.normal)) * self.mover.width;
+                let push = push + lean;
+                planes::add(self.planes, HalfSpace::new(turned, push - gap, yields));
+            }
             if touch.bend == Bend::Steep
                 && let Some(level) = self.level(touch.normal).try_normalize()
             {
@@ -97,8 +111,29 @@ impl Solver<'_> {
         }
         let (x, left_out) = nearest_yielding(bent.as_dvec3(), self.planes);
         self.pinned |= left_out;
+        if left_out {
+            self.note_overrun(x.as_vec3(), t);
+        }
         self.bend_velocity(before, t, ground);
         x.as_vec3()
+    }
+
+    /// Remembers which of the touched gave way: the motion `x` goes into them, and a sweep that
+    /// stopped there would leave the character to what it cannot withstand.
+    fn note_overrun(&mut self, x: Vec3, t: f32) {
+        for touch in self.touches.iter() {
+            let obstacle = touch.obstacle;
+            if self.near.obstacles[obstacle as usize].kind == ObstacleKind::Static
+                || self.overrun.contains(&obstacle)
+            {
+                continue;
+            }
+            let push = self.push_of(obstacle, touch.point, touch.normal, t);
+            let gap = (touch.distance - HIT).max(0.0);
+            if touch.normal.dot(x) < push - gap - ASIDE {
+                self.overrun.push(obstacle);
+            }
+        }
     }
 
     /// Raises a motion so that it keeps above the ground that it touches, without turning it.
@@ -255,7 +290,9 @@ impl Solver<'_> {
         let away = p.distance(self.pose.position) + 1.0e-5;
         let count = self.near.within(length * best + HIT, away);
         for index in 0..count {
-            if self.out_of_reach(index, &pose, length * best + HIT) {
+            if self.out_of_reach(index, &pose, length * best + HIT)
+                || self.overrun.contains(&self.near.pieces[index].obstacle)
+            {
                 continue;
             }
             if let Some(s) = self.advance(index, p, rest, t, best, aside) {
@@ -284,11 +321,11 @@ impl Solver<'_> {
         };
         let mut s = 0.0;
         for _ in 0..ADVANCES {
-            let time = t + (1.0 - t) * s;
+            let time = if self.frozen { t } else { t + (1.0 - t) * s };
             let pose = self.pose.at(p + rest * s);
             let found = self.near.separation(index, &self.mover, &pose, time);
             let motion = &self.near.obstacles[obstacle as usize].motion;
-            let moved = if motion.is_none() {
+            let moved = if motion.is_none() || self.frozen {
                 Vec3::ZERO
             } else {
                 motion.velocity(found.point, time) * (1.0 - t)

@@ -170,10 +170,15 @@ impl Solver<'_> {
         Bend::Ground
     }
 
-    /// Displacement over the rest of the tick of what is touched, as far as it pushes.
+    /// Displacement over the rest of the tick of what is touched, as far as it pushes: what its arc
+    /// comes to, and no less than where it heads now, for that is what a sweep meets first.
     pub fn push_of(&self, obstacle: u32, point: Vec3, normal: Vec3, t: f32) -> f32 {
         let obstacle = &self.near.obstacles[obstacle as usize];
-        let push = obstacle.motion.rest(point, t).dot(normal);
+        let motion = &obstacle.motion;
+        let mut push = motion.rest(point, t).dot(normal);
+        if motion.turn != Vec3::ZERO {
+            push = push.max(motion.velocity(point, t).dot(normal) * (1.0 - t));
+        }
         if obstacle.kind == ObstacleKind::Dynamic && !self.config.pushed_by_bodies {
             push.min(0.0)
         } else {

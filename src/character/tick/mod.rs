@@ -116,7 +116,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             && !state.crushed
             && !state.overlapping
             && asked_turn(motor, intent, start.rotation, state.up).abs() < STILL_TURN
-            && !around.filters_changed
+            && !around.settings_changed
             && !around.activity.near(middle - reach, middle + reach);
         if at_rest {
             if report.solved {

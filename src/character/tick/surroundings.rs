@@ -22,8 +22,8 @@ pub(in crate::character) struct Surroundings<'a, 'w, 's> {
     pub entity: Entity,
     pub view: PhysicsView<'a>,
     pub dt: f32,
-    /// Whether what may be touched is not what it was in the last tick.
-    pub filters_changed: bool,
+    /// Whether its config, or what may be touched, is not what it was in the last tick.
+    pub settings_changed: bool,
     pub groups: CollisionGroups,
     pub filter: Option<&'a CharacterFilter>,
     pub ignores: Option<&'a CharacterIgnores>,

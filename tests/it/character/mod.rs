@@ -4,6 +4,7 @@ mod support;
 mod warnings;
 
 mod bad_input;
+mod between;
 mod corners;
 mod crowd;
 mod determinism;
