@@ -8,13 +8,19 @@ pub mod debug;
 #[cfg(feature = "character")]
 mod diagnostics;
 pub mod interpolation;
-#[cfg(feature = "character")]
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 mod math;
 mod schedule;
 mod teleport;
 
 #[cfg(feature = "character")]
 pub mod character;
+#[cfg(feature = "vehicle")]
+pub mod vehicle;
 
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
@@ -39,6 +45,8 @@ impl PluginGroup for EmbodyPlugins {
             .add(interpolation::EmbodyInterpolationPlugin);
         #[cfg(feature = "character")]
         let group = group.add(character::CharacterPlugin);
+        #[cfg(feature = "vehicle")]
+        let group = group.add(vehicle::VehiclePlugin);
         group
     }
 }
@@ -53,6 +61,18 @@ pub mod prelude {
         CustomMotor, GroundState, Hit, Ladder, Landed, LeaveVelocity, LeftGround, MovementMode,
         NotPushable, SlopeSpeed, Stance, StanceChanged, StepConfig, Stepped, SurfaceGrip,
         SurfaceVelocity, UpDirection, WaterVolume,
+    };
+    #[cfg(feature = "vehicle")]
+    #[doc(hidden)]
+    pub use crate::vehicle::{
+        Aero, AntiLockBrakes, BottomedOut, Brakes, Clutch, Damper, Differential, DrivenAxle,
+        Drivetrain, ElectricMotor, Engine, EngineStalled, Gear, GearShifted, Gearbox, HillHold,
+        LeanControl, PowerSource, RoadVelocity, Shifting, SlipEnded, SlipPoint, SlipStarted,
+        SpringRate, StabilityControl, SteerPoint, Steering, SurfaceFriction, Suspension, Tire,
+        TireModel, TorquePoint, TractionControl, Vehicle, VehicleIntent, VehicleMass,
+        VehiclePlugin, VehiclePreset, VehicleState, VehicleSystems, VehicleTelemetry, Wheel,
+        WheelContact, WheelDynamics, WheelLanded, WheelLeftGround, WheelOf, WheelProbe, WheelState,
+        Wheels,
     };
     #[doc(hidden)]
     pub use crate::{

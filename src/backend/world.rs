@@ -1,6 +1,6 @@
 //! Reading and writing the physics world between its synchronisation and its step.
 
-use bevy::{ecs::system::SystemParam, prelude::*};
+use bevy::{ecs::system::SystemParam, platform::collections::HashSet, prelude::*};
 use bevy_rapier3d::{
     plugin::context::{
         RapierContextColliders, RapierContextEntityLink, RapierContextSimulation,
@@ -55,9 +55,9 @@ impl PhysicsWorlds<'_, '_> {
 /// One physics world, to be read.
 #[derive(Clone, Copy)]
 pub(crate) struct PhysicsView<'a> {
-    simulation: &'a RapierContextSimulation,
-    colliders: &'a RapierContextColliders,
-    bodies: &'a RapierRigidBodySet,
+    pub(super) simulation: &'a RapierContextSimulation,
+    pub(super) colliders: &'a RapierContextColliders,
+    pub(super) bodies: &'a RapierRigidBodySet,
     pub gravity: Vec3,
     /// Whether the world is stepped.
     pub active: bool,
@@ -239,7 +239,7 @@ impl<'a> PhysicsView<'a> {
 }
 
 /// The pose of a body at the end of the tick, or `None` when it does not move.
-fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
+pub(super) fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
     let end = match body.body_type() {
         RigidBodyType::Fixed => return None,
         RigidBodyType::KinematicPositionBased => *body.next_position(),
@@ -255,7 +255,7 @@ fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
 }
 
 /// A symmetric matrix in full.
-fn symmetric(m: &AngularInertia) -> Mat3 {
+pub(super) fn symmetric(m: &AngularInertia) -> Mat3 {
     Mat3::from_cols(
         Vec3::new(m.m11, m.m12, m.m13),
         Vec3::new(m.m12, m.m22, m.m23),
@@ -454,27 +454,58 @@ impl PhysicsWorldsMut<'_, '_> {
                 body.apply_impulse_at_point(impulse, point, wake);
             }
             if force != Vec3::ZERO {
-                if !self
-                    .forced
-                    .0
-                    .iter()
-                    .any(|f| f.link == link.0 && f.body == handle)
-                {
-                    self.forced.0.push(Forced {
-                        link: link.0,
-                        body: handle,
-                        force: body.user_force(),
-                        torque: body.user_torque(),
-                    });
-                }
+                self.forced.note(link.0, handle, body);
                 body.add_force_at_point(force, point, wake);
             }
         }
     }
 
+    /// Remembers the forces that a body had before it is pushed.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn note_forced(&mut self, link: Entity, handle: RigidBodyHandle) {
+        if let Ok((_, _, bodies)) = self.contexts.get(link)
+            && let Some(body) = bodies.bodies.get(handle)
+        {
+            self.forced.note(link, handle, body);
+        }
+    }
+
+    /// A body, to be written.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn body_mut(
+        &mut self,
+        link: Entity,
+        handle: RigidBodyHandle,
+    ) -> Option<&mut RigidBody> {
+        let (_, _, bodies) = self.contexts.get_mut(link).ok()?;
+        bodies
+            .into_inner()
+            .bodies
+            .get_mut(handle)
+    }
+
+    /// Everything of one world.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn parts_mut(
+        &mut self,
+        link: Entity,
+    ) -> Option<(
+        &mut RapierContextSimulation,
+        &mut RapierContextColliders,
+        &mut RapierRigidBodySet,
+    )> {
+        let (simulation, colliders, bodies) = self.contexts.get_mut(link).ok()?;
+        Some((
+            simulation.into_inner(),
+            colliders.into_inner(),
+            bodies.into_inner(),
+        ))
+    }
+
     /// Gives the bodies back the forces that they had before the tick.
     pub fn end_forces(&mut self) {
-        for forced in self.forced.0.drain(..) {
+        self.forced.known.clear();
+        for forced in self.forced.list.drain(..) {
             if let Ok((_, _, mut bodies)) = self.contexts.get_mut(forced.link)
                 && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(forced.body)
             {
@@ -498,4 +529,21 @@ struct Forced {
 
 /// The bodies that are pushed in this tick; empty between ticks.
 #[derive(Resource, Default)]
-pub(crate) struct ForcedBodies(Vec<Forced>);
+pub(crate) struct ForcedBodies {
+    list: Vec<Forced>,
+    known: HashSet<(Entity, RigidBodyHandle)>,
+}
+
+impl ForcedBodies {
+    /// Keeps the forces of a body that is about to be pushed for the first time in this tick.
+    fn note(&mut self, link: Entity, handle: RigidBodyHandle, body: &RigidBody) {
+        if self.known.insert((link, handle)) {
+            self.list.push(Forced {
+                link,
+                body: handle,
+                force: body.user_force(),
+                torque: body.user_torque(),
+            });
+        }
+    }
+}

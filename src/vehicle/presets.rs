@@ -1,0 +1,55 @@
+//! Vehicles with real numbers, as data.
+
+use bevy::prelude::*;
+use bevy_rapier3d::prelude::Collider;
+
+use super::{
+    config::{Vehicle, VehicleMass},
+    wheel::{Wheel, WheelOf},
+};
+
+/// A vehicle with its wheels, ready to be changed and spawned.
+#[derive(Reflect, Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct VehiclePreset {
+    /// The vehicle.
+    pub vehicle: Vehicle,
+    /// Its mass.
+    pub mass: VehicleMass,
+    /// Full size of its hull, metres.
+    pub hull: Vec3,
+    /// Centre of its hull, metres.
+    pub hull_center: Vec3,
+    /// Its wheels.
+    pub wheels: Vec<Wheel>,
+}
+
+impl VehiclePreset {
+    /// Spawns the vehicle with a box for a hull, and its wheels as its children.
+    pub fn spawn(&self, commands: &mut Commands, at: Transform) -> Entity {
+        let half = self.hull * 0.5;
+        let hull = Collider::compound(vec![(
+            self.hull_center,
+            Quat::IDENTITY,
+            Collider::cuboid(half.x, half.y, half.z),
+        )]);
+        let vehicle = commands
+            .spawn((
+                self.vehicle.clone(),
+                self.mass,
+                hull,
+                at,
+                Visibility::default(),
+            ))
+            .id();
+        for wheel in &self.wheels {
+            commands.spawn((
+                wheel.clone(),
+                WheelOf(vehicle),
+                ChildOf(vehicle),
+                Visibility::default(),
+            ));
+        }
+        vehicle
+    }
+}
