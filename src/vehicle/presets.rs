@@ -39,16 +39,10 @@ impl VehiclePreset {
                 self.mass,
                 hull,
                 at,
-                Visibility::default(),
             ))
             .id();
         for wheel in &self.wheels {
-            commands.spawn((
-                wheel.clone(),
-                WheelOf(vehicle),
-                ChildOf(vehicle),
-                Visibility::default(),
-            ));
+            commands.spawn((wheel.clone(), WheelOf(vehicle), ChildOf(vehicle)));
         }
         vehicle
     }
