@@ -29,8 +29,16 @@ pub(crate) fn on_curve(points: &[TorquePoint], rpm: f32) -> f32 {
     before.torque
 }
 
-/// Torque of a running engine at `w` rad/s over a tick of `dt`; `cut` interrupts the fuel.
-pub(crate) fn power(engine: &Engine, w: f32, throttle: f32, cut: bool, dt: f32) -> Power {
+/// Torque of a running engine at `w` rad/s over a tick of `dt`; `cut` interrupts the fuel, `free` tells
+/// that nothing but its own inertia is in the way.
+pub(crate) fn power(
+    engine: &Engine,
+    w: f32,
+    throttle: f32,
+    cut: bool,
+    free: bool,
+    dt: f32,
+) -> Power {
     let rpm = w / from_rpm(1.0);
     let drive = if cut { 0.0 } else { throttle * on_curve(&engine.torque, rpm) };
     let closed = 1.0 - throttle;
@@ -49,9 +57,9 @@ pub(crate) fn power(engine: &Engine, w: f32, throttle: f32, cut: bool, dt: f32) 
         let wanted = gain * (idle - w) + held;
         power.torque += wanted.min(most).max(0.0) * closed;
     }
-    // The limiter cuts before the shaft overshoots within the tick.
-    let room = (from_rpm(engine.redline) - w) * engine.inertia / dt;
-    if power.torque > room.max(0.0) && room > -drive {
+    if free {
+        // The limiter cuts before the shaft overshoots within the tick.
+        let room = (from_rpm(engine.redline) - w) * engine.inertia / dt;
         power.torque = power.torque.min(room.max(0.0));
     }
     power
@@ -86,7 +94,7 @@ mod tests {
     #[test]
     fn torque_follows_its_curve_and_the_fuel_is_cut_at_the_redline() {
         let engine = Engine::default();
-        let at = |rpm: f32| power(&engine, from_rpm(rpm), 1.0, false, 1.0 / 60.0).torque;
+        let at = |rpm: f32| power(&engine, from_rpm(rpm), 1.0, false, true, 1.0 / 60.0).torque;
         assert!((at(2750.0) - 160.0).abs() < 0.1, "{}", at(2750.0));
         assert!(at(6501.0) <= 0.0);
     }
@@ -97,7 +105,7 @@ mod tests {
         for dt in [1.0f32 / 30.0, 1.0 / 240.0] {
             let mut w = from_rpm(500.0);
             for _ in 0..(3.0 / dt) as usize {
-                let p = power(&engine, w, 0.0, false, dt);
+                let p = power(&engine, w, 0.0, false, true, dt);
                 w = (w * engine.inertia + dt * p.torque) / (engine.inertia + dt * p.damping);
             }
             let rpm = w / from_rpm(1.0);

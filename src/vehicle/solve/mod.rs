@@ -65,6 +65,8 @@ pub(crate) struct Contact<'a> {
     pub radius: f32,
     /// Deflection of the carcass at the start, metres.
     pub bristle: Vec2,
+    /// Slip velocity that the turning of the wheel within the tick adds, metres per second.
+    pub turn_slip: Vec2,
     /// Slip across that the camber adds, dimensionless.
     pub camber_slip: f32,
     // Found by the solve.

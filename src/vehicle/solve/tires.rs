@@ -71,7 +71,7 @@ fn solve(problem: &Problem, i: usize, patch: &Patch) -> (Vec2, Vec2, f32) {
     let slip = Vec2::new(
         spin - velocity.dot(contact.along),
         contact.camber_slip * contact.speed - velocity.dot(contact.across),
-    );
+    ) + contact.turn_slip;
     let turned = problem.spin.mobility(contact.wheel) as f32 * contact.radius * contact.radius;
     let own = |axis| contact.mobility(axis, contact, axis, chassis, grounds);
     let mobility = Vec2::new(own(contact.along) + turned, own(contact.across));

@@ -80,6 +80,17 @@ pub(super) fn build<'a>(
         let arm = touch.point - rigid.center;
         let velocity = rigid.velocity + rigid.spin.cross(arm) - ground_velocity;
         let flat = Vec2::new(velocity.dot(along), velocity.dot(across));
+        // Forces act as the wheel points in the middle of the tick; the velocities that they lead to
+        // are those of its end, so slip is measured as the wheel points then.
+        let half = (0.5 * s.dt * rigid.spin.dot(touch.normal)).clamp(-0.5, 0.5);
+        let (sin, cos) = ops::sin_cos(half);
+        let turned = |a: Vec3, b: Vec3| (a * cos - b * sin, b * cos + a * sin);
+        let (along, across) = turned(along, across);
+        let (end_along, end_across) = turned(along, across);
+        let turn_slip = Vec2::new(
+            velocity.dot(along - end_along),
+            velocity.dot(across - end_across),
+        );
         let speed = flat.length().max((last.spin * wheel.radius).abs());
         let mut bristle = if same_ground { last.bristle } else { Vec2::ZERO };
         if same_ground && speed < SLOW {
@@ -103,6 +114,7 @@ pub(super) fn build<'a>(
             surface: friction.friction.max(0.0),
             radius: wheel.radius,
             bristle,
+            turn_slip,
             // Leaning to the right pushes to the right.
             camber_slip: -wheel.tire.camber_stiffness * ops::asin(lean),
             push: 0.0,

@@ -22,8 +22,6 @@ pub(super) struct Driveline {
     pub power: Power,
     /// Torque of direct drive and skid steering on each wheel, newton-metres.
     pub direct: [f32; MOST_WHEELS],
-    /// Torque at each wheel for one at the clutch, where it drives.
-    pub leverage: [f32; MOST_WHEELS],
 }
 
 pub(super) fn build(
@@ -45,7 +43,6 @@ pub(super) fn build(
         brakes: [None; MOST_WHEELS],
         power: Power::default(),
         direct: [0.0; MOST_WHEELS],
-        leverage: [0.0; MOST_WHEELS],
     };
     for (i, wheel) in s.wheels.iter().enumerate() {
         spin.shaft(state.wheels[i].spin, wheel.inertia);
@@ -178,11 +175,12 @@ fn drive(
                 || (state.limiting && state.engine_speed > redline - from_rpm(100.0));
             let fed = if state.shifting > 0.0 { 0.0 } else { throttle };
             line.power = if state.stalled {
-                let mut dead = power(engine, state.engine_speed, 0.0, true, dt);
+                let mut dead = power(engine, state.engine_speed, 0.0, true, false, dt);
                 dead.torque = dead.torque.min(0.0);
                 dead
             } else {
-                power(engine, state.engine_speed, fed, state.limiting, dt)
+                let free = ratio == 0.0 || asked.clutch > 0.5;
+                power(engine, state.engine_speed, fed, state.limiting, free, dt)
             };
             engine_inertia = engine.inertia;
             let pedal = 1.0 - asked.clutch;
@@ -215,7 +213,6 @@ fn drive(
             let leverage = ratio * shares[i];
             q[i] = f64::from(leverage);
             p[i] = f64::from(leverage * efficiency);
-            line.leverage[i] = leverage * efficiency;
         }
         p[shaft] = -1.0;
         q[shaft] = -1.0;

@@ -108,6 +108,7 @@ pub(super) fn finish(
     let (rigid, axes) = (solved.rigid, solved.axes);
     let mut force = Vec3::ZERO;
     let mut torque = Vec3::ZERO;
+    let mut torques = [0.0; super::MOST_WHEELS];
     report.outputs.clear();
     report.outputs.extend(s.wheels.iter().map(|_| WheelState::default()));
     for (i, found) in solved.found.iter().enumerate() {
@@ -115,7 +116,8 @@ pub(super) fn finish(
         let start = state.wheels[i].spin;
         let spin = finite(solved.spin.w[i] as f32);
         // A wheel that is spun up turns the body the other way.
-        torque += found.axle * (wheel.inertia * (spin - start) / dt);
+        torques[i] = wheel.inertia * (spin - start) / dt;
+        torque += found.axle * torques[i];
         let last = &mut state.wheels[i];
         last.spin = spin;
         last.angle = (last.angle + spin * dt).rem_euclid(core::f32::consts::TAU);
@@ -234,8 +236,15 @@ pub(super) fn finish(
                 report.events.push((i, WheelEvent::SlipEnded));
             }
         }
+        // What the shaft must have given, for the wheel to turn as it does.
+        let wheel = s.wheels[i];
+        let brake = solved.line.brakes[i].map_or(0.0, |row| solved.spin.impulse(row) as f32 / dt);
         let out = &mut report.outputs[i];
-        out.drive_torque = solved.line.direct[i] + solved.line.leverage[i] * clutch;
+        out.drive_torque = if wheel.driven {
+            torques[i] + out.force.x * wheel.radius - brake
+        } else {
+            0.0
+        };
     }
     if let Some(shaft) = solved.line.engine {
         state.engine_speed = finite(solved.spin.w[shaft] as f32);

@@ -2,6 +2,15 @@
 
 mod support;
 
-mod statics;
+mod braking;
+mod cornering;
+mod determinism;
+mod ground;
 mod hills;
+mod life;
+mod resistance;
+mod robust;
 mod springs;
+mod statics;
+mod traction;
+mod transfer;

@@ -201,6 +201,18 @@ impl Plan {
         self
     }
 
+    /// Pushes these wheels with this force each, newtons, at full throttle.
+    pub fn direct(mut self, force: f32, driven: impl Fn(usize) -> bool) -> Self {
+        for (i, wheel) in self.wheels.iter_mut().enumerate() {
+            wheel.driven = driven(i);
+        }
+        self.vehicle.drivetrain = Some(Drivetrain {
+            source: PowerSource::Direct { force },
+            ..default()
+        });
+        self
+    }
+
     /// Spawns it, awake for ever.
     pub fn spawn(&self, sim: &mut Sim, at: Transform) -> Car {
         let body = sim.spawn((
