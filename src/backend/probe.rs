@@ -49,6 +49,14 @@ pub(crate) struct ProbeHit {
     pub entity: Entity,
 }
 
+/// What a probe saw first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Seen {
+    Ground(ProbeHit),
+    /// The inside of a solid that it began in.
+    Inside,
+}
+
 impl PhysicsView<'_> {
     /// The nearest solid collider on the probe's way that is not of the body `own`.
     pub fn probe(
@@ -56,7 +64,7 @@ impl PhysicsView<'_> {
         probe: &Probe,
         own: &RapierRigidBodyHandle,
         groups: Option<CollisionGroups>,
-    ) -> Option<ProbeHit> {
+    ) -> Option<Seen> {
         if !probe.origin.is_finite() || !(probe.reach > 0.0) {
             return None;
         }
@@ -87,7 +95,10 @@ impl PhysicsView<'_> {
         let (handle, distance, point, normal) = match probe.shape {
             ProbeShape::Ray => {
                 let ray = Ray::new(probe.origin, probe.direction);
-                let (handle, hit) = pipeline.cast_ray_and_get_normal(&ray, probe.reach, false)?;
+                let (handle, hit) = pipeline.cast_ray_and_get_normal(&ray, probe.reach, true)?;
+                if hit.time_of_impact <= 0.0 {
+                    return Some(Seen::Inside);
+                }
                 let point = probe.origin + probe.direction * hit.time_of_impact;
                 (handle, hit.time_of_impact, point, hit.normal)
             }
@@ -116,11 +127,11 @@ impl PhysicsView<'_> {
         } else {
             normal
         };
-        Some(ProbeHit {
+        Some(Seen::Ground(ProbeHit {
             distance,
             point,
             normal,
             entity: RapierContextColliders::entity_from_collider(collider),
-        })
+        }))
     }
 }

@@ -18,6 +18,8 @@ pub(crate) struct VehicleReport {
     pub asleep: bool,
     /// Whether something about the vehicle changed that a sleeper has to look at.
     pub changed: bool,
+    /// Time for which it is not left to sleep, seconds.
+    pub stay_awake: f32,
     /// What the last solve was asked.
     pub asked: VehicleIntent,
     /// On the chassis, about its centre of mass, newtons and newton-metres.
@@ -46,6 +48,7 @@ impl Default for VehicleReport {
             solved: false,
             asleep: false,
             changed: true,
+            stay_awake: 0.0,
             asked: VehicleIntent::default(),
             force: Vec3::ZERO,
             torque: Vec3::ZERO,

@@ -32,7 +32,7 @@ pub(crate) struct GroundBody {
     pub entity: Entity,
     /// Change of velocity against the ground's at the start of the tick. Begins with the last tick's
     /// wheel forces taken back: what else holds the body (a floor, joints) is assumed to act as it
-    /// did, so that light rubble on a floor is not taken for something that gives way.
+    /// did, so that a body on a floor is not taken for something that gives way.
     pub velocity: Vec3,
     pub spin: Vec3,
     pub inverse_mass: f32,
@@ -49,7 +49,7 @@ impl GroundBody {
 impl Contact<'_> {
     /// Velocity of the chassis against the ground at the contact, with all impulses so far.
     pub fn velocity(&self, chassis: &Chassis, grounds: &[GroundBody]) -> Vec3 {
-        let own = chassis.velocity + chassis.spin.cross(self.arm) - self.ground_velocity;
+        let own = chassis.velocity + chassis.spin.cross(self.arm) - self.ground_end;
         match self.ground {
             Some((index, arm)) => {
                 let body = &grounds[index];
@@ -61,7 +61,7 @@ impl Contact<'_> {
 
     /// The same at the start of the tick.
     pub fn start_velocity(&self, chassis: &Chassis) -> Vec3 {
-        chassis.start + chassis.start_spin.cross(self.arm) - self.ground_velocity
+        chassis.start + chassis.start_spin.cross(self.arm) - self.ground_start
     }
 
     /// Applies an impulse to the chassis and its opposite to the ground.

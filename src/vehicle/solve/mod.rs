@@ -48,8 +48,10 @@ pub(crate) struct Contact<'a> {
     pub across: Vec3,
     /// Cosine between the suspension's axis and the normal.
     pub cosine: f32,
-    /// Velocity of the ground at the contact at the start of the tick.
-    pub ground_velocity: Vec3,
+    /// Velocity of the ground at the contact at the start of the tick, and at its end, where the
+    /// contact then is.
+    pub ground_start: Vec3,
+    pub ground_end: Vec3,
     /// The dynamic body it stands on, by index, and the arm from that body's centre of mass.
     pub ground: Option<(usize, Vec3)>,
     pub law: Law,

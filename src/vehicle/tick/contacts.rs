@@ -17,6 +17,10 @@ use crate::{
 /// Below this speed against the ground a carcass remembers what others did to it, metres per second.
 const SLOW: f32 = 2.0;
 
+/// A body under a wheel counts as at least the vehicle's mass over this: what is much lighter than a
+/// wheel's load can only carry it because something else carries it in turn.
+const LIGHTEST: f32 = 8.0;
+
 pub(super) fn build<'a>(
     s: &Surroundings<'a, '_, '_>,
     config: &Vehicle,
@@ -27,6 +31,7 @@ pub(super) fn build<'a>(
     grounds: &mut ArrayVec<GroundBody, MOST_WHEELS>,
     contacts: &mut ArrayVec<Contact<'a>, MOST_WHEELS>,
 ) {
+    let own_mass = rigid.mass;
     for (i, f) in found.iter().enumerate() {
         let Some(touch) = f.contact else { continue };
         let wheel = s.wheels[i];
@@ -36,14 +41,20 @@ pub(super) fn build<'a>(
         };
         let (friction, road) = s.surfaces.get(touch.entity).unwrap_or_default();
         let friction = friction.copied().unwrap_or_default();
-        let mut ground_velocity = motion.velocity_at(touch.point);
-        if let Some(road) = road
-            && let Some((origin, rotation)) = s.view.collider_pose(touch.entity)
-        {
-            ground_velocity += rotation * road.linear
-                + (rotation * road.angular).cross(touch.point - origin);
-        }
-        if !ground_velocity.is_finite() {
+        let road = road.zip(s.view.collider_pose(touch.entity));
+        let ground_at = |point: Vec3| {
+            let mut velocity = motion.velocity_at(point);
+            if let Some((road, (origin, rotation))) = road {
+                velocity += rotation * road.linear
+                    + (rotation * road.angular).cross(point - origin);
+            }
+            velocity
+        };
+        let arm = touch.point - rigid.center;
+        let own_velocity = rigid.velocity + rigid.spin.cross(arm);
+        let ground_start = ground_at(touch.point);
+        let ground_end = ground_at(touch.point + own_velocity * s.dt);
+        if !ground_start.is_finite() || !ground_end.is_finite() {
             continue;
         }
         let same_ground = last.ground == Some(touch.entity);
@@ -51,12 +62,13 @@ pub(super) fn build<'a>(
             GroundMotion::Free { body, rigid } if !rigid.sleeping => {
                 let index = grounds.iter().position(|g| g.entity == body);
                 let index = index.unwrap_or_else(|| {
+                    let heavier = (rigid.mass * LIGHTEST / own_mass).min(1.0);
                     grounds.push(GroundBody {
                         entity: body,
                         velocity: Vec3::ZERO,
                         spin: Vec3::ZERO,
-                        inverse_mass: 1.0 / rigid.mass,
-                        inverse_inertia: rigid.inverse_inertia,
+                        inverse_mass: heavier / rigid.mass,
+                        inverse_inertia: rigid.inverse_inertia * heavier,
                     });
                     grounds.len() - 1
                 });
@@ -72,13 +84,12 @@ pub(super) fn build<'a>(
             GroundMotion::Free { body, .. } => Some(body),
             _ => None,
         };
-        report.ground_velocities[i] = ground_velocity;
+        report.ground_velocities[i] = ground_start;
         let Some(along) = touch.normal.cross(f.axle).try_normalize() else {
             continue;
         };
         let across = along.cross(touch.normal);
-        let arm = touch.point - rigid.center;
-        let velocity = rigid.velocity + rigid.spin.cross(arm) - ground_velocity;
+        let velocity = own_velocity - ground_start;
         let flat = Vec2::new(velocity.dot(along), velocity.dot(across));
         // Forces act as the wheel points in the middle of the tick; the velocities that they lead to
         // are those of its end, so slip is measured as the wheel points then.
@@ -104,7 +115,8 @@ pub(super) fn build<'a>(
             along,
             across,
             cosine: touch.cosine,
-            ground_velocity,
+            ground_start,
+            ground_end,
             ground,
             law: f.law,
             compression: f.compression,

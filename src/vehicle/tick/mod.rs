@@ -67,6 +67,9 @@ pub(super) struct Scratch {
     spin: Spin,
 }
 
+/// For how long a woken vehicle is not left to sleep, seconds: until its steering has turned.
+const STAY_AWAKE: f32 = 1.0;
+
 /// Axes of a body in the world.
 #[derive(Clone, Copy)]
 struct Axes {
@@ -96,17 +99,24 @@ pub(super) fn run(
         state.wheels.resize(s.wheels.len(), WheelDynamics::default());
     }
     let asked = intent.clean();
+    if asked != report.asked {
+        report.stay_awake = STAY_AWAKE;
+    }
     if rigid.sleeping {
         let moved = state.wheels.iter().any(|w| match w.ground {
             Some(ground) => s.view.ground_stirs(ground, s.dt),
             None => false,
         });
-        if asked == report.asked && !report.changed && !moved {
+        if report.changed || moved || asked.throttle > 0.0 {
+            report.stay_awake = STAY_AWAKE;
+        }
+        if report.stay_awake <= 0.0 {
             telemetry.asleep = true;
             report.asleep = true;
             return;
         }
     }
+    report.stay_awake -= s.dt;
     report.asked = asked;
     report.changed = false;
     report.solved = true;

@@ -6,7 +6,7 @@ use bevy::{math::ops, prelude::*};
 use super::Surroundings;
 use crate::{
     backend::{
-        probe::{Probe, ProbeHit, ProbeShape},
+        probe::{Probe, ProbeHit, ProbeShape, Seen},
         rigid::Rigid,
     },
     vehicle::{
@@ -133,14 +133,24 @@ fn look(
     let closing = (rigid.velocity + rigid.spin.cross(arm)).dot(frame.down);
     let ahead = 1.5 * closing.max(0.0) * s.dt;
     let ray = |offset: Vec3| {
-        let probe = Probe {
-            origin: top + offset - frame.down * raise,
-            rotation: Quat::IDENTITY,
-            direction: frame.down,
-            reach: raise + travel + wheel.radius + ahead,
-            shape: ProbeShape::Ray,
+        let from = |raise: f32| {
+            let probe = Probe {
+                origin: top + offset - frame.down * raise,
+                rotation: Quat::IDENTITY,
+                direction: frame.down,
+                reach: raise + travel + wheel.radius + ahead,
+                shape: ProbeShape::Ray,
+            };
+            s.view.probe(&probe, s.handle, s.groups)
         };
-        let hit = s.view.probe(&probe, s.handle, s.groups)?;
+        // Above the wheel may be the inside of something: a low bridge, a ledge.
+        let hit = match from(raise)? {
+            Seen::Ground(hit) => hit,
+            Seen::Inside => match from(0.0)? {
+                Seen::Ground(hit) => hit,
+                Seen::Inside => return None,
+            },
+        };
         rest_on_plane(wheel, frame, top + offset, &hit, least_cosine)
     };
     let cast = |shape: ProbeShape, lower: f32| {
@@ -151,7 +161,9 @@ fn look(
             reach: raise + travel + ahead,
             shape,
         };
-        let hit = s.view.probe(&probe, s.handle, s.groups)?;
+        let Seen::Ground(hit) = s.view.probe(&probe, s.handle, s.groups)? else {
+            return None;
+        };
         let cosine = -hit.normal.dot(frame.down);
         if cosine < least_cosine {
             return None;

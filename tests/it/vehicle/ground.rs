@@ -63,6 +63,11 @@ fn a_light_plate_on_the_floor_carries_its_wheel() {
         let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT + 0.05, 0.0));
         let mut lowest = f32::MAX;
         let mut highest = f32::MIN;
+        for k in 0..(if std::env::var_os("DBG").is_some() { 40 } else { 0 }) {
+            sim.ticks(1);
+            let p = sim.get::<Transform>(plate);
+            println!("{hz} {k} plate {:?} rot {:?} loads {:?} force {:?} y {}", p.translation, p.rotation.to_scaled_axis(), car.loads(&sim), car.wheel(&sim,0).force, car.pose(&sim).translation.y);
+        }
         sim.seconds(3.0);
         for _ in 0..(3.0 * hz) as usize {
             sim.ticks(1);

@@ -1,6 +1,6 @@
 //! Extremes: stiffness, damping, mass, friction, time step, bad numbers.
 
-use bevy::prelude::*;
+use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::Sim;
@@ -68,7 +68,7 @@ impl Dice {
 
     /// Evenly over the orders of magnitude.
     fn scale(&mut self, low: f32, high: f32) -> f32 {
-        bevy::math::ops::exp(self.between(bevy::math::ops::ln(low), bevy::math::ops::ln(high)))
+        ops::exp(self.between(ops::ln(low), ops::ln(high)))
     }
 }
 
@@ -133,10 +133,13 @@ fn random_vehicles_stay_finite_and_gain_no_energy_without_input() {
         let start = energy(&sim, &car, &plan);
         let mut most = f32::MIN;
         let mut finite = true;
-        let case = format!("seed {seed}: {hz:.0} Hz {mass:.0} kg {count} wheels");
+        let case = format!("seed {seed}: {hz:.0} Hz {mass:.0} kg {count} wheels µ {friction:.1}");
         for _ in 0..(3.0 * hz) as usize {
             sim.ticks(1);
             most = most.max(energy(&sim, &car, &plan));
+            if std::env::var("SEED").is_ok_and(|v| v == seed.to_string()) {
+                println!("{case} E {} y {} v {} w {} sweeps {} up {:.2} loads {:?} comp {:?} f {:?}", energy(&sim,&car,&plan), car.pose(&sim).translation.y, car.velocity(&sim).linear, car.velocity(&sim).angular, car.telemetry(&sim).sweeps, (car.pose(&sim).rotation*Vec3::Y).y, car.loads(&sim), car.all(&sim).iter().map(|w| w.compression).collect::<Vec<_>>(), car.all(&sim).iter().map(|w| w.force).collect::<Vec<_>>());
+            }
             finite &= car.finite(&sim);
         }
         found.holds(format!("{case}: finite"), finite);
