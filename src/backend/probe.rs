@@ -113,7 +113,8 @@ impl PhysicsView<'_> {
                     ..ShapeCastOptions::default()
                 };
                 let shape = Cylinder::new(half, radius);
-                let (handle, hit) = pipeline.cast_shape(&start, probe.direction, &shape, options)?;
+                let (handle, hit) =
+                    pipeline.cast_shape(&start, probe.direction, &shape, options)?;
                 (handle, hit.time_of_impact, hit.witness1, hit.normal1)
             }
         };

@@ -43,10 +43,7 @@ pub(crate) enum GroundMotion {
         center: Vec3,
     },
     /// As forces will.
-    Free {
-        body: Entity,
-        rigid: Rigid,
-    },
+    Free { body: Entity, rigid: Rigid },
 }
 
 impl GroundMotion {
@@ -223,11 +220,9 @@ impl PhysicsWorldsMut<'_, '_> {
             };
             let aabb = collider.compute_aabb();
             if collider.is_enabled() && aabb.mins.is_finite() && aabb.maxs.is_finite() {
-                simulation.broad_phase.set_aabb(
-                    &simulation.integration_parameters,
-                    handle.0,
-                    aabb,
-                );
+                simulation
+                    .broad_phase
+                    .set_aabb(&simulation.integration_parameters, handle.0, aabb);
             }
         }
     }

@@ -478,10 +478,7 @@ impl PhysicsWorldsMut<'_, '_> {
         handle: RigidBodyHandle,
     ) -> Option<&mut RigidBody> {
         let (_, _, bodies) = self.contexts.get_mut(link).ok()?;
-        bodies
-            .into_inner()
-            .bodies
-            .get_mut(handle)
+        bodies.into_inner().bodies.get_mut(handle)
     }
 
     /// Everything of one world.

@@ -59,66 +59,63 @@ pub(super) fn solve_vehicles(
         return;
     }
     let batches = BatchingStrategy::new().batches_per_thread(4);
-    vehicles
-        .par_iter_mut()
-        .batching_strategy(batches)
-        .for_each(
-            |(
-                (config, intent, tied),
-                (link, handle, groups),
-                (abs, traction, stability, hill, lean),
-                mut state,
-                mut telemetry,
-                mut report,
-            )| {
-                let report = report.bypass_change_detection();
-                if !report.valid {
-                    report.clear();
-                    return;
+    vehicles.par_iter_mut().batching_strategy(batches).for_each(
+        |(
+            (config, intent, tied),
+            (link, handle, groups),
+            (abs, traction, stability, hill, lean),
+            mut state,
+            mut telemetry,
+            mut report,
+        )| {
+            let report = report.bypass_change_detection();
+            if !report.valid {
+                report.clear();
+                return;
+            }
+            let Some(view) = worlds.of(link) else { return };
+            if !view.active {
+                report.clear();
+                return;
+            }
+            let mut list = WheelList::new();
+            for wheel in wheels.iter_many(tied.iter()) {
+                if list.try_push(wheel).is_err() {
+                    break;
                 }
-                let Some(view) = worlds.of(link) else { return };
-                if !view.active {
-                    report.clear();
-                    return;
-                }
-                let mut list = WheelList::new();
-                for wheel in wheels.iter_many(tied.iter()) {
-                    if list.try_push(wheel).is_err() {
-                        break;
-                    }
-                }
-                let surroundings = Surroundings {
-                    view,
-                    dt,
-                    handle,
-                    groups: groups.copied(),
-                    surfaces: &surfaces,
-                    wheels: list,
-                    assists: Assists {
-                        abs,
-                        traction,
-                        stability,
-                        hill,
-                        lean,
-                    },
-                };
-                scratch.scope(|scratch| {
-                    tick::run(
-                        &surroundings,
-                        config,
-                        intent,
-                        state.bypass_change_detection(),
-                        telemetry.bypass_change_detection(),
-                        report,
-                        scratch,
-                    );
-                });
-                if report.solved {
-                    state.set_changed();
-                    telemetry.set_changed();
-                }
-            },
-        );
+            }
+            let surroundings = Surroundings {
+                view,
+                dt,
+                handle,
+                groups: groups.copied(),
+                surfaces: &surfaces,
+                wheels: list,
+                assists: Assists {
+                    abs,
+                    traction,
+                    stability,
+                    hill,
+                    lean,
+                },
+            };
+            scratch.scope(|scratch| {
+                tick::run(
+                    &surroundings,
+                    config,
+                    intent,
+                    state.bypass_change_detection(),
+                    telemetry.bypass_change_detection(),
+                    report,
+                    scratch,
+                );
+            });
+            if report.solved {
+                state.set_changed();
+                telemetry.set_changed();
+            }
+        },
+    );
 }
 
 /// Writes what the ticks decided.

@@ -22,8 +22,8 @@ mod events;
 mod intent;
 mod output;
 mod prepare;
-mod presets;
 mod present;
+mod presets;
 mod react;
 mod report;
 mod solve;
@@ -123,14 +123,14 @@ impl Plugin for VehiclePlugin {
                     (prepare::check_configs, prepare::set_masses)
                         .chain()
                         .in_set(VehicleSystems::Prepare),
-                    (
-                        drive::admit_new,
-                        drive::solve_vehicles,
-                        drive::apply_forces,
-                    )
+                    (drive::admit_new, drive::solve_vehicles, drive::apply_forces)
                         .chain()
                         .in_set(VehicleSystems::Drive),
-                    (react::write_wheels, present::remember, react::trigger_events)
+                    (
+                        react::write_wheels,
+                        present::remember,
+                        react::trigger_events,
+                    )
                         .chain()
                         .in_set(VehicleSystems::React),
                 )

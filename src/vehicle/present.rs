@@ -53,7 +53,13 @@ pub(super) fn remember(
 pub(super) fn show(
     clock: Res<Time<Fixed>>,
     vehicles: Query<&Transform, (With<Vehicle>, Without<Wheel>)>,
-    mut wheels: Query<(&Wheel, &WheelOf, &WheelPose, Option<&ChildOf>, &mut Transform)>,
+    mut wheels: Query<(
+        &Wheel,
+        &WheelOf,
+        &WheelPose,
+        Option<&ChildOf>,
+        &mut Transform,
+    )>,
 ) {
     let part = clock.overstep_fraction();
     for (wheel, of, pose, parent, mut transform) in &mut wheels {
@@ -61,7 +67,8 @@ pub(super) fn show(
         let lerp = |a: f32, b: f32| a + (b - a) * part;
         // The short way round.
         let turn = core::f32::consts::TAU;
-        let turned = (now.spin_angle - before.spin_angle + 1.5 * turn).rem_euclid(turn) - 0.5 * turn;
+        let turned =
+            (now.spin_angle - before.spin_angle + 1.5 * turn).rem_euclid(turn) - 0.5 * turn;
         let down = wheel.direction.normalize_or(Vec3::NEG_Y);
         let out = wheel.suspension.travel - lerp(before.compression, now.compression);
         let lean = if wheel.attachment.x < 0.0 {

@@ -4,9 +4,7 @@
 use arrayvec::ArrayVec;
 use bevy::prelude::*;
 
-use super::{
-    drivetrain::Shift, intent::VehicleIntent, output::WheelState, solve::MOST_WHEELS,
-};
+use super::{drivetrain::Shift, intent::VehicleIntent, output::WheelState, solve::MOST_WHEELS};
 
 /// The decisions of one tick.
 #[derive(Component)]

@@ -105,8 +105,11 @@ mod tests {
     #[test]
     fn ackermann_angles_are_those_of_the_circle() {
         let steering = Steering::default();
-        for (radius, inner, outer) in [(10.0, 16.93, 14.53), (5.0, 33.69, 25.77), (20.0, 8.30, 7.67)]
-        {
+        for (radius, inner, outer) in [
+            (10.0, 16.93, 14.53),
+            (5.0, 33.69, 25.77),
+            (20.0, 8.30, 7.67),
+        ] {
             let angle = ops::atan(2.8f32 / radius);
             let wheel = |right| steering.wheel_angle(angle, 2.8, right, 2.8);
             let (i, o) = (wheel(0.8), wheel(-0.8));
@@ -135,8 +138,14 @@ mod tests {
     fn the_angle_follows_speed_and_rate() {
         let steering = Steering {
             speed_curve: vec![
-                SteerPoint { speed: 10.0, part: 1.0 },
-                SteerPoint { speed: 30.0, part: 0.2 },
+                SteerPoint {
+                    speed: 10.0,
+                    part: 1.0,
+                },
+                SteerPoint {
+                    speed: 30.0,
+                    part: 0.2,
+                },
             ],
             max_angle: 0.5,
             rate: 1.0,

@@ -79,12 +79,22 @@ pub(super) fn vehicle(config: &Vehicle) -> Option<Problem> {
     let right_angle = core::f32::consts::FRAC_PI_2;
     let steering = &config.steering;
     let ok = (0.0..right_angle).contains(&steering.max_angle);
-    check.that(ok, "Vehicle::steering.max_angle", steering.max_angle, "0 to below π/2");
+    check.that(
+        ok,
+        "Vehicle::steering.max_angle",
+        steering.max_angle,
+        "0 to below π/2",
+    );
     check.finite("Vehicle::steering.ackermann", steering.ackermann);
     check.finite("Vehicle::steering.offset", steering.offset);
     check.not_negative("Vehicle::steering.skid_torque", steering.skid_torque);
     let ok = steering.rate > 0.0;
-    check.that(ok, "Vehicle::steering.rate", steering.rate, "a number above 0");
+    check.that(
+        ok,
+        "Vehicle::steering.rate",
+        steering.rate,
+        "a number above 0",
+    );
     for p in &steering.speed_curve {
         check.not_negative("Vehicle::steering.speed_curve.speed", p.speed);
         check.part("Vehicle::steering.speed_curve.part", p.part);
@@ -102,7 +112,12 @@ pub(super) fn vehicle(config: &Vehicle) -> Option<Problem> {
         check.finite_vec("Vehicle::aero.air_control", aero.air_control);
     }
     let ok = (0.0..right_angle).contains(&config.max_ground_angle);
-    check.that(ok, "Vehicle::max_ground_angle", config.max_ground_angle, "0 to below π/2");
+    check.that(
+        ok,
+        "Vehicle::max_ground_angle",
+        config.max_ground_angle,
+        "0 to below π/2",
+    );
     if let Some(drivetrain) = &config.drivetrain {
         check_drivetrain(&mut check, drivetrain);
     }
@@ -114,7 +129,12 @@ fn check_drivetrain(check: &mut Check, drivetrain: &Drivetrain) {
         PowerSource::Engine(engine) => {
             check.positive("Engine::idle", engine.idle);
             let ok = engine.redline > engine.idle && engine.redline.is_finite();
-            check.that(ok, "Engine::redline", engine.redline, "more than the idle speed");
+            check.that(
+                ok,
+                "Engine::redline",
+                engine.redline,
+                "more than the idle speed",
+            );
             check.positive("Engine::inertia", engine.inertia);
             check.not_negative("Engine::friction", engine.friction);
             check.not_negative("Engine::viscosity", engine.viscosity);
@@ -124,7 +144,12 @@ fn check_drivetrain(check: &mut Check, drivetrain: &Drivetrain) {
             }
             let ordered = engine.torque.windows(2).all(|w| w[0].rpm < w[1].rpm);
             let n = engine.torque.len() as f32;
-            check.that(ordered && n > 0.0, "Engine::torque", n, "points in the order of their rpm");
+            check.that(
+                ordered && n > 0.0,
+                "Engine::torque",
+                n,
+                "points in the order of their rpm",
+            );
         }
         PowerSource::Motor(motor) => {
             check.not_negative("ElectricMotor::torque", motor.torque);
@@ -155,7 +180,12 @@ fn check_drivetrain(check: &mut Check, drivetrain: &Drivetrain) {
     for differential in listed.chain([drivetrain.center]) {
         if let Differential::LimitedSlip { bias, preload } = differential {
             let ok = bias >= 1.0 && bias.is_finite();
-            check.that(ok, "Differential::bias", bias, "a finite number of at least 1");
+            check.that(
+                ok,
+                "Differential::bias",
+                bias,
+                "a finite number of at least 1",
+            );
             check.not_negative("Differential::preload", preload);
         }
     }
@@ -205,7 +235,12 @@ pub(super) fn wheel(config: &Wheel) -> Option<Problem> {
     check.not_negative("Suspension::preload", suspension.preload);
     check.not_negative("Suspension::progression", suspension.progression);
     let ok = (0.0..=suspension.travel).contains(&suspension.stop_length);
-    check.that(ok, "Suspension::stop_length", suspension.stop_length, "0 to the travel");
+    check.that(
+        ok,
+        "Suspension::stop_length",
+        suspension.stop_length,
+        "0 to the travel",
+    );
     check.not_negative("Suspension::stop_stiffness", suspension.stop_stiffness);
     check.not_negative("Suspension::unsprung_mass", suspension.unsprung_mass);
     let tire = &config.tire;

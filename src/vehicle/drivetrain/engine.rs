@@ -40,7 +40,11 @@ pub(crate) fn power(
     dt: f32,
 ) -> Power {
     let rpm = w / from_rpm(1.0);
-    let drive = if cut { 0.0 } else { throttle * on_curve(&engine.torque, rpm) };
+    let drive = if cut {
+        0.0
+    } else {
+        throttle * on_curve(&engine.torque, rpm)
+    };
     let closed = 1.0 - throttle;
     let mut power = Power {
         torque: drive - closed * engine.friction * (w / from_rpm(50.0)).clamp(-1.0, 1.0),
@@ -53,7 +57,8 @@ pub(crate) fn power(
         let gain = engine.inertia / dt.max(0.03);
         let most = on_curve(&engine.torque, engine.idle.max(rpm));
         // What the closed throttle brakes with is made up for.
-        let held = closed * (engine.friction * (w / from_rpm(50.0)).clamp(0.0, 1.0) + engine.viscosity * idle);
+        let held = closed
+            * (engine.friction * (w / from_rpm(50.0)).clamp(0.0, 1.0) + engine.viscosity * idle);
         let wanted = gain * (idle - w) + held;
         power.torque += wanted.min(most).max(0.0) * closed;
     }
@@ -74,7 +79,11 @@ pub(crate) fn motor_power(motor: &ElectricMotor, w: f32, throttle: f32, directio
         motor.torque
     };
     let cut = w * direction > from_rpm(motor.redline);
-    let drive = if cut { 0.0 } else { throttle * most * direction };
+    let drive = if cut {
+        0.0
+    } else {
+        throttle * most * direction
+    };
     let brake = if throttle > 0.0 {
         0.0
     } else {

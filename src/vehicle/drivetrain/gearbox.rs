@@ -122,7 +122,11 @@ mod tests {
             let dt = 1.0 / hz;
             let mut gearbox = fresh(1);
             let n = Gear::Number(2);
-            assert!(gearbox.tick(&config, n, 3000.0, 3000.0, 10.0, false, dt).is_some());
+            assert!(
+                gearbox
+                    .tick(&config, n, 3000.0, 3000.0, 10.0, false, dt)
+                    .is_some()
+            );
             let mut cut = 0;
             while gearbox.ratio(&config) == 0.0 {
                 cut += 1;
@@ -136,9 +140,8 @@ mod tests {
     #[test]
     fn an_automatic_does_not_shift_up_while_the_wheels_spin() {
         let config = Gearbox::default();
-        let shift = |slipping| {
-            fresh(1).tick(&config, Gear::Drive, 6000.0, 6000.0, 5.0, slipping, 0.016)
-        };
+        let shift =
+            |slipping| fresh(1).tick(&config, Gear::Drive, 6000.0, 6000.0, 5.0, slipping, 0.016);
         assert_eq!(shift(true), None);
         assert_eq!(shift(false), Some(Shift { from: 1, to: 2 }));
     }
@@ -146,9 +149,8 @@ mod tests {
     #[test]
     fn reverse_is_refused_at_speed() {
         let config = Gearbox::default();
-        let shift = |speed| {
-            fresh(3).tick(&config, Gear::Reverse, 2500.0, 2500.0, speed, false, 0.016)
-        };
+        let shift =
+            |speed| fresh(3).tick(&config, Gear::Reverse, 2500.0, 2500.0, speed, false, 0.016);
         assert_eq!(shift(10.0), None);
         assert_eq!(shift(0.1), Some(Shift { from: 3, to: -1 }));
     }

@@ -70,7 +70,8 @@ mod tests {
                 if i == j {
                     n as f64 + i as f64
                 } else {
-                    1.0 / (1.0 + i as f64 + 2.0 * j as f64) * if (i + j) % 3 == 0 { -1.0 } else { 1.0 }
+                    1.0 / (1.0 + i as f64 + 2.0 * j as f64)
+                        * if (i + j) % 3 == 0 { -1.0 } else { 1.0 }
                 }
             };
             let mut ldlt = Ldlt::new();

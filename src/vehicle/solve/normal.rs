@@ -78,9 +78,7 @@ impl Normals {
         }
         let mut now = [0.0f32; MOST_WHEELS];
         for (i, c) in problem.contacts.iter().enumerate() {
-            now[i] = c
-                .velocity(&problem.chassis, problem.grounds)
-                .dot(c.normal);
+            now[i] = c.velocity(&problem.chassis, problem.grounds).dot(c.normal);
         }
         if search || !self.factored {
             self.linearise(problem, &now);
@@ -94,7 +92,11 @@ impl Normals {
             }
             // Velocities without the impulses that are about to be taken off.
             for i in 0..count {
-                left_out[i] = if self.pushing[i] { 0.0 } else { problem.contacts[i].push };
+                left_out[i] = if self.pushing[i] {
+                    0.0
+                } else {
+                    problem.contacts[i].push
+                };
             }
             for (row, &i) in self.rows[..self.n].iter().enumerate() {
                 let mut v = f64::from(now[i]);
@@ -202,8 +204,7 @@ impl Normals {
                 self.off[i] = -f64::from(dt * dt * cross);
             }
             self.a[i] = f64::from(dt * (force / c.cosine - from_start));
-            self.diagonal[i] =
-                f64::from(dt * dt * scheme.b * k + dt * scheme.q * kc).max(1.0e-12);
+            self.diagonal[i] = f64::from(dt * dt * scheme.b * k + dt * scheme.q * kc).max(1.0e-12);
             self.off[i] *= f64::from(scheme.b);
         }
         for (i, c) in problem.contacts.iter().enumerate() {

@@ -63,15 +63,13 @@ impl Law {
     /// its travel, newtons per metre.
     pub fn piece(&self, x: f32, expected: f32, bumping: bool, block: f32) -> Piece {
         let damping = if bumping { self.bump } else { self.rebound };
-        let tangent = |x: f32| {
-            self.stiffness * (1.0 + 2.0 * self.progression * x.max(0.0) / self.travel)
-        };
+        let tangent =
+            |x: f32| self.stiffness * (1.0 + 2.0 * self.progression * x.max(0.0) / self.travel);
         let end = x.max(expected);
         let mut force = self.force(x);
         let mut stiffness = if (expected - x).abs() > 1.0e-3 && self.progression > 0.0 {
-            let spring = |x: f32| {
-                self.stiffness * x * (1.0 + self.progression * x.max(0.0) / self.travel)
-            };
+            let spring =
+                |x: f32| self.stiffness * x * (1.0 + self.progression * x.max(0.0) / self.travel);
             (spring(expected) - spring(x)) / (expected - x)
         } else {
             tangent(x)

@@ -71,13 +71,21 @@ mod tests {
         for ratio in [0.2f32, 0.5] {
             let m = 375.0;
             let w = core::f32::consts::TAU * 1.5;
-            let exact = ops::exp(
-                -core::f32::consts::PI * ratio / (1.0 - ratio * ratio).sqrt(),
-            );
+            let exact = ops::exp(-core::f32::consts::PI * ratio / (1.0 - ratio * ratio).sqrt());
             for hz in [30.0, 60.0, 120.0, 240.0] {
-                let path = run(m * w * w, 2.0 * ratio * w * m, m, 1.0 / hz, hz as usize, 1.0);
+                let path = run(
+                    m * w * w,
+                    2.0 * ratio * w * m,
+                    m,
+                    1.0 / hz,
+                    hz as usize,
+                    1.0,
+                );
                 let low = path.iter().copied().fold(0.0, f32::min);
-                assert!((-low - exact).abs() < 0.02, "{hz} {ratio}: {low} for {exact}");
+                assert!(
+                    (-low - exact).abs() < 0.02,
+                    "{hz} {ratio}: {low} for {exact}"
+                );
             }
         }
     }

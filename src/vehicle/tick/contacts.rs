@@ -45,8 +45,8 @@ pub(super) fn build<'a>(
         let ground_at = |point: Vec3| {
             let mut velocity = motion.velocity_at(point);
             if let Some((road, (origin, rotation))) = road {
-                velocity += rotation * road.linear
-                    + (rotation * road.angular).cross(point - origin);
+                velocity +=
+                    rotation * road.linear + (rotation * road.angular).cross(point - origin);
             }
             velocity
         };
@@ -54,6 +54,9 @@ pub(super) fn build<'a>(
         let own_velocity = rigid.velocity + rigid.spin.cross(arm);
         let ground_start = ground_at(touch.point);
         let ground_end = ground_at(touch.point + own_velocity * s.dt);
+        // The step moves a body a little more by its last velocity than by its first: on a circle
+        // that would lead inward.
+        let ground_end = ground_end.lerp(ground_start, s.view.end_share() - 0.5);
         if !ground_start.is_finite() || !ground_end.is_finite() {
             continue;
         }
@@ -103,7 +106,11 @@ pub(super) fn build<'a>(
             velocity.dot(across - end_across),
         );
         let speed = flat.length().max((last.spin * wheel.radius).abs());
-        let mut bristle = if same_ground { last.bristle } else { Vec2::ZERO };
+        let mut bristle = if same_ground {
+            last.bristle
+        } else {
+            Vec2::ZERO
+        };
         if same_ground && speed < SLOW {
             bristle -= (flat - last.expected) * s.dt;
         }

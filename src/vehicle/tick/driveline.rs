@@ -60,7 +60,9 @@ pub(super) fn build(
         line.brakes[i] = spin.row(Row::brake(i, f64::from(torque * dt)));
     }
     if let Some(drivetrain) = &config.drivetrain {
-        drive(s, drivetrain, state, report, telemetry, asked, speed, spin, &mut line);
+        drive(
+            s, drivetrain, state, report, telemetry, asked, speed, spin, &mut line,
+        );
         let skid = config.steering.skid_torque * asked.steer;
         for (i, wheel) in s.wheels.iter().enumerate() {
             if wheel.driven {
@@ -87,7 +89,9 @@ fn drive(
 ) {
     let dt = s.dt;
     let shares = wheel_shares(s, drivetrain);
-    let mean: f32 = (0..s.wheels.len()).map(|i| shares[i] * state.wheels[i].spin).sum();
+    let mean: f32 = (0..s.wheels.len())
+        .map(|i| shares[i] * state.wheels[i].spin)
+        .sum();
     let slipping = driven_slip(s, state, speed);
 
     let mut gearbox = GearboxState {

@@ -76,7 +76,8 @@ pub(super) fn outside_forces(
         let soft = 1.0 + s.dt * (c + s.dt * k);
         let torque = inertia * (k * (wanted - now - s.dt * rate) - c * rate) / soft;
         // What falls over by gravity is held as well.
-        let held = rigid.mass * g * height * ops::sin(now) - rigid.mass * height * turning * ops::cos(now);
+        let held =
+            rigid.mass * g * height * ops::sin(now) - rigid.mass * height * turning * ops::cos(now);
         out.torque += axes.forward * (torque - held);
     }
     out
@@ -110,7 +111,9 @@ pub(super) fn finish(
     let mut torque = Vec3::ZERO;
     let mut torques = [0.0; super::MOST_WHEELS];
     report.outputs.clear();
-    report.outputs.extend(s.wheels.iter().map(|_| WheelState::default()));
+    report
+        .outputs
+        .extend(s.wheels.iter().map(|_| WheelState::default()));
     for (i, found) in solved.found.iter().enumerate() {
         let wheel = s.wheels[i];
         let start = state.wheels[i].spin;
@@ -130,8 +133,8 @@ pub(super) fn finish(
         out.spin = spin;
         out.steer_angle = found.angle;
         out.abs = solved.brakes.abs[i];
-        out.brake_torque = solved.line.brakes[i]
-            .map_or(0.0, |row| (solved.spin.impulse(row) as f32 / dt).abs());
+        out.brake_torque =
+            solved.line.brakes[i].map_or(0.0, |row| (solved.spin.impulse(row) as f32 / dt).abs());
     }
     let clutch = solved
         .line
@@ -153,7 +156,9 @@ pub(super) fn finish(
         force += pushed;
         torque += contact.arm.cross(pushed);
         let last = &mut state.wheels[i];
-        let Some(touch) = solved.found[i].contact else { continue };
+        let Some(touch) = solved.found[i].contact else {
+            continue;
+        };
         if let Some(body) = report.ground_bodies[i] {
             let changed = (pushed + last.ground_force).length() > 0.01 * pushed.length()
                 || last.ground != Some(touch.entity);

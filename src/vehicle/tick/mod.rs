@@ -96,7 +96,9 @@ pub(super) fn run(
         return;
     }
     if state.wheels.len() != s.wheels.len() {
-        state.wheels.resize(s.wheels.len(), WheelDynamics::default());
+        state
+            .wheels
+            .resize(s.wheels.len(), WheelDynamics::default());
     }
     let asked = intent.clean();
     if asked != report.asked {
@@ -150,12 +152,32 @@ pub(super) fn run(
 
     let mut grounds: ArrayVec<GroundBody, MOST_WHEELS> = ArrayVec::new();
     let mut contacts: ArrayVec<Contact, MOST_WHEELS> = ArrayVec::new();
-    contacts::build(s, config, state, report, &rigid, &found, &mut grounds, &mut contacts);
+    contacts::build(
+        s,
+        config,
+        state,
+        report,
+        &rigid,
+        &found,
+        &mut grounds,
+        &mut contacts,
+    );
 
     scratch.spin.clear();
-    let brakes = brakes::brakes(s, config, state, telemetry, &asked, &rigid, &axes, &found, speed);
+    let brakes = brakes::brakes(
+        s, config, state, telemetry, &asked, &rigid, &axes, &found, speed,
+    );
     let line = driveline::build(
-        s, config, state, report, telemetry, &asked, &found, &brakes, speed, &mut scratch.spin,
+        s,
+        config,
+        state,
+        report,
+        telemetry,
+        &asked,
+        &found,
+        &brakes,
+        speed,
+        &mut scratch.spin,
     );
     let mut problem = Problem {
         dt,
@@ -200,6 +222,7 @@ impl VehicleReport {
         self.shares_key = Some(key);
         self.reshare = false;
         self.shares.clear();
-        self.shares.extend(shares::shares(rigid.mass, center, &s.wheels));
+        self.shares
+            .extend(shares::shares(rigid.mass, center, &s.wheels));
     }
 }

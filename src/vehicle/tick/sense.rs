@@ -107,9 +107,8 @@ fn frame(wheel: &Wheel, rigid: &Rigid, angle: f32) -> Frame {
     } else {
         wheel.camber
     };
-    let rotation = rigid.rotation
-        * Quat::from_axis_angle(down, angle)
-        * Quat::from_rotation_z(lean);
+    let rotation =
+        rigid.rotation * Quat::from_axis_angle(down, angle) * Quat::from_rotation_z(lean);
     Frame {
         axle: rotation * Vec3::X,
         down: rigid.rotation * down,

@@ -50,11 +50,19 @@ mod tests {
             attachment: Vec3::new(x, 0.0, z),
             ..Wheel::default()
         };
-        let all = [wheel(-0.8, -1.2), wheel(0.8, -1.2), wheel(-0.8, 1.6), wheel(0.8, 1.6)];
+        let all = [
+            wheel(-0.8, -1.2),
+            wheel(0.8, -1.2),
+            wheel(-0.8, 1.6),
+            wheel(0.8, 1.6),
+        ];
         let list: WheelList = all.iter().collect();
         let found = shares(1500.0, Vec3::ZERO, &list);
         let front = 1500.0 * 1.6 / 2.8 / 2.0;
-        assert!((found[0] - front).abs() < 0.1 && (found[1] - front).abs() < 0.1, "{found:?}");
+        assert!(
+            (found[0] - front).abs() < 0.1 && (found[1] - front).abs() < 0.1,
+            "{found:?}"
+        );
         assert!((found.iter().sum::<f32>() - 1500.0).abs() < 0.1);
         // Two wheels in line.
         let two: WheelList = [&all[0], &all[2]].into_iter().collect();

@@ -112,14 +112,24 @@ mod tests {
     fn every_slope_is_the_derivative_of_its_force() {
         let free = TireModel::Curve {
             points: vec![
-                SlipPoint { slip: 0.1, force: 1.0 },
-                SlipPoint { slip: 0.5, force: 0.8 },
+                SlipPoint {
+                    slip: 0.1,
+                    force: 1.0,
+                },
+                SlipPoint {
+                    slip: 0.5,
+                    force: 0.8,
+                },
             ],
         };
         let models = [
             TireModel::Linear { stiffness: 10.0 },
             TireModel::Brush { stiffness: 10.0 },
-            TireModel::Magic { b: 8.0, c: 1.6, e: 0.5 },
+            TireModel::Magic {
+                b: 8.0,
+                c: 1.6,
+                e: 0.5,
+            },
             free,
         ];
         for model in &models {
@@ -142,8 +152,14 @@ mod tests {
     fn a_free_curve_goes_through_its_points_and_stays_at_the_last() {
         let free = TireModel::Curve {
             points: vec![
-                SlipPoint { slip: 0.1, force: 1.0 },
-                SlipPoint { slip: 0.5, force: 0.8 },
+                SlipPoint {
+                    slip: 0.1,
+                    force: 1.0,
+                },
+                SlipPoint {
+                    slip: 0.5,
+                    force: 0.8,
+                },
             ],
         };
         let curve = AxisCurve::new(&free, 1.0, 1.0);

@@ -34,11 +34,21 @@ fn locked_wheels_stop_within_the_distance_of_friction() {
         let mut all = Vec::new();
         for hz in RATES {
             let (distance, heading) = stop(hz, &Plan::reference(), speed, false);
-            found.within(format!("{hz} Hz {speed} m/s: distance"), distance, wanted, 0.03);
+            found.within(
+                format!("{hz} Hz {speed} m/s: distance"),
+                distance,
+                wanted,
+                0.03,
+            );
             found.near(format!("{hz} Hz {speed} m/s: heading"), heading, 0.0, 1.0);
             all.push(distance);
         }
-        found.within(format!("{speed} m/s: 30 against 240 Hz"), all[0], all[3], 0.02);
+        found.within(
+            format!("{speed} m/s: 30 against 240 Hz"),
+            all[0],
+            all[3],
+            0.02,
+        );
     }
 }
 
@@ -122,7 +132,9 @@ fn locked_wheels_do_not_steer_and_slide_against_their_motion() {
         for _ in 0..hz as usize {
             sim.ticks(1);
             for wheel in car.all(&sim) {
-                let Some(contact) = wheel.contact else { continue };
+                let Some(contact) = wheel.contact else {
+                    continue;
+                };
                 if wheel.load < 100.0 {
                     continue;
                 }

@@ -24,7 +24,12 @@ fn at_walking_pace_the_path_is_the_circle_of_the_steering() {
             let inner = car.wheel(&sim, 1).steer_angle;
             let outer = car.wheel(&sim, 0).steer_angle;
             let cot = 1.0 / ops::tan(outer) - 1.0 / ops::tan(inner);
-            found.near(format!("{hz} Hz {radius} m: Ackermann"), cot, 1.6 / 2.8, 1.0e-3);
+            found.near(
+                format!("{hz} Hz {radius} m: Ackermann"),
+                cot,
+                1.6 / 2.8,
+                1.0e-3,
+            );
             // The middle of the rear axle runs on the circle.
             let rear = |sim: &Sim| {
                 let pose = car.pose(sim);
@@ -40,7 +45,12 @@ fn at_walking_pace_the_path_is_the_circle_of_the_steering() {
                 last = now;
             }
             let turned = nose.angle_between(forward(&car.pose(&sim)));
-            found.within(format!("{hz} Hz {radius} m: radius"), way / turned, radius, 0.01);
+            found.within(
+                format!("{hz} Hz {radius} m: radius"),
+                way / turned,
+                radius,
+                0.01,
+            );
         }
     }
 }
@@ -162,7 +172,12 @@ fn lateral_force_builds_up_over_the_relaxation_length_at_every_speed() {
             }
             sim.seconds(f64::from(4.0 / speed));
             let end = car.wheel(&sim, 0).force.y;
-            found.within(format!("{hz} Hz {speed} m/s: steady"), end, 80.0e3 * 0.02, 0.02);
+            found.within(
+                format!("{hz} Hz {speed} m/s: steady"),
+                end,
+                80.0e3 * 0.02,
+                0.02,
+            );
             found.near(format!("{hz} Hz {speed} m/s"), at_length / end, 0.632, 0.03);
         }
     }

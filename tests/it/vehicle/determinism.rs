@@ -34,7 +34,11 @@ fn bits(sim: &Sim, car: &Car) -> Vec<u32> {
         .collect();
     bits.push(state.engine_speed.to_bits());
     for w in &state.wheels {
-        bits.extend([w.spin.to_bits(), w.bristle.x.to_bits(), w.compression.to_bits()]);
+        bits.extend([
+            w.spin.to_bits(),
+            w.bristle.x.to_bits(),
+            w.compression.to_bits(),
+        ]);
     }
     bits
 }
@@ -108,7 +112,10 @@ fn a_state_that_is_put_back_goes_on_as_it_did() {
     let first = drive(&mut sim, &car);
     // Straight into the body: on the way through a matrix a rotation loses its last bits.
     let world = sim.app.world_mut();
-    let handle = world.get::<RapierRigidBodyHandle>(car.body).expect("a body").0;
+    let handle = world
+        .get::<RapierRigidBodyHandle>(car.body)
+        .expect("a body")
+        .0;
     let mut sets = world.query::<&mut RapierRigidBodySet>();
     let mut set = sets.single_mut(world).expect("one world");
     let body = set.bodies.get_mut(handle).expect("the body is there");

@@ -45,7 +45,11 @@ fn a_car_that_drives_off_pushes_the_slab_under_it_the_other_way() {
         found.at_least(format!("{hz} Hz: driven"), given, 3000.0);
         let change = momentum(&sim) - before;
         let level = Vec2::new(change.x, change.z).length();
-        found.at_most(format!("{hz} Hz: momentum out of nothing"), level, 0.005 * given);
+        found.at_most(
+            format!("{hz} Hz: momentum out of nothing"),
+            level,
+            0.005 * given,
+        );
     }
 }
 
@@ -63,11 +67,6 @@ fn a_light_plate_on_the_floor_carries_its_wheel() {
         let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT + 0.05, 0.0));
         let mut lowest = f32::MAX;
         let mut highest = f32::MIN;
-        for k in 0..(if std::env::var_os("DBG").is_some() { 40 } else { 0 }) {
-            sim.ticks(1);
-            let p = sim.get::<Transform>(plate);
-            println!("{hz} {k} plate {:?} rot {:?} loads {:?} force {:?} y {}", p.translation, p.rotation.to_scaled_axis(), car.loads(&sim), car.wheel(&sim,0).force, car.pose(&sim).translation.y);
-        }
         sim.seconds(3.0);
         for _ in 0..(3.0 * hz) as usize {
             sim.ticks(1);
@@ -133,7 +132,12 @@ fn a_belt_takes_a_braked_car_along_and_a_turntable_turns_it() {
         let v = car.velocity(&sim).linear;
         found.near(format!("{hz} Hz belt: along"), v.z, 10.0, 0.01);
         for wheel in car.all(&sim) {
-            found.within(format!("{hz} Hz belt: load"), wheel.load, MASS * G / 4.0, 0.01);
+            found.within(
+                format!("{hz} Hz belt: load"),
+                wheel.load,
+                MASS * G / 4.0,
+                0.01,
+            );
         }
 
         let mut sim = Sim::new(hz);
@@ -155,7 +159,12 @@ fn a_belt_takes_a_braked_car_along_and_a_turntable_turns_it() {
         };
         let before = radius(&sim);
         sim.seconds(6.0);
-        found.near(format!("{hz} Hz turntable: radius"), radius(&sim), before, 0.03);
+        found.near(
+            format!("{hz} Hz turntable: radius"),
+            radius(&sim),
+            before,
+            0.03,
+        );
         let spin = car.velocity(&sim).angular.y;
         found.near(format!("{hz} Hz turntable: turns"), spin, 1.0, 0.01);
     }

@@ -62,7 +62,12 @@ fn beyond_the_angle_of_friction_a_braked_car_slides_with_what_friction_leaves() 
             sim.seconds(4.0);
             let after = car.velocity(&sim).linear.length();
             let wanted = G * (sin(32.0) - 0.6 * cos(32.0));
-            found.within(format!("{hz} Hz {name}"), (after - before) / 4.0, wanted, 0.05);
+            found.within(
+                format!("{hz} Hz {name}"),
+                (after - before) / 4.0,
+                wanted,
+                0.05,
+            );
         }
     }
 }
@@ -110,7 +115,12 @@ fn a_released_car_moves_on_the_next_tick_and_rolls_with_its_effective_mass() {
         // Four wheels of 1 kg·m² at 0.3 m add 44 kg.
         let mass = MASS + 4.0 / (RADIUS * RADIUS);
         let wanted = G * (sin(10.0) - 0.012 * cos(10.0)) * MASS / mass;
-        found.within(format!("{hz} Hz: acceleration"), (after - before) / 2.0, wanted, 0.02);
+        found.within(
+            format!("{hz} Hz: acceleration"),
+            (after - before) / 2.0,
+            wanted,
+            0.02,
+        );
     }
 }
 

@@ -142,7 +142,9 @@ fn a_parked_car_sleeps_wakes_without_a_hop_and_drives_off() {
         for rotation in [Quat::IDENTITY, uphill(15.0)] {
             let mut sim = Sim::new(hz);
             plane(&mut sim, rotation);
-            let car = Plan::reference().direct(2000.0, |_| true).park(&mut sim, rotation);
+            let car = Plan::reference()
+                .direct(2000.0, |_| true)
+                .park(&mut sim, rotation);
             insert(&mut sim, car.body, Sleeping::default());
             car.ask(&mut sim, |i| i.brake = 1.0);
             sim.seconds(15.0);
@@ -200,7 +202,12 @@ fn wheels_are_seen_where_they_touch() {
         for (i, wheel) in car.wheels.iter().enumerate() {
             let at = sim.position(*wheel);
             found.near(format!("{hz} Hz wheel {i}: height"), at.y, RADIUS, 0.002);
-            found.near(format!("{hz} Hz wheel {i}: aside"), at.x.abs(), HALF_TRACK, 1.0e-3);
+            found.near(
+                format!("{hz} Hz wheel {i}: aside"),
+                at.x.abs(),
+                HALF_TRACK,
+                1.0e-3,
+            );
         }
     }
 }

@@ -8,6 +8,7 @@ mod determinism;
 mod ground;
 mod hills;
 mod life;
+mod presets;
 mod resistance;
 mod robust;
 mod springs;

@@ -89,7 +89,12 @@ fn a_coasting_car_slows_down_as_the_formula_says() {
         car.roll(&mut sim, Vec3::NEG_Z * 30.0);
         let start = car.pose(&sim).translation.z;
         sim.seconds(10.0);
-        found.within(format!("{hz} Hz: after 10 s"), car.telemetry(&sim).speed, 26.75, 0.01);
+        found.within(
+            format!("{hz} Hz: after 10 s"),
+            car.telemetry(&sim).speed,
+            26.75,
+            0.01,
+        );
         let mut time = 10.0;
         while car.telemetry(&sim).speed > 0.01 && time < 200.0 {
             sim.ticks(1);
@@ -123,7 +128,12 @@ fn down_force_adds_to_the_loads_with_the_square_of_the_speed() {
         let v = car.telemetry(&sim).speed;
         let load = car.loads(&sim);
         let unit = 0.5 * 1.225 * v * v;
-        found.within(format!("{hz} Hz: sum"), load.iter().sum(), MASS * G + 1.5 * unit, 0.005);
+        found.within(
+            format!("{hz} Hz: sum"),
+            load.iter().sum(),
+            MASS * G + 1.5 * unit,
+            0.005,
+        );
         let rear = load[2] + load[3];
         found.within(format!("{hz} Hz: rear"), rear, MASS * G / 2.0 + unit, 0.01);
     }

@@ -58,7 +58,10 @@ struct Dice(u64);
 
 impl Dice {
     fn roll(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
         ((self.0 >> 40) as f32) / ((1u64 << 24) as f32)
     }
 
@@ -90,8 +93,12 @@ fn random_vehicles_stay_finite_and_gain_no_energy_without_input() {
         let ratio = dice.between(0.0, 5.0);
         let friction = dice.between(0.0, 5.0);
         let model = match seed % 3 {
-            0 => TireModel::Brush { stiffness: dice.scale(1.0e3, 1.0e6) },
-            1 => TireModel::Linear { stiffness: dice.scale(1.0e3, 1.0e6) },
+            0 => TireModel::Brush {
+                stiffness: dice.scale(1.0e3, 1.0e6),
+            },
+            1 => TireModel::Linear {
+                stiffness: dice.scale(1.0e3, 1.0e6),
+            },
             _ => TireModel::Magic {
                 b: dice.between(4.0, 20.0),
                 c: dice.between(1.0, 2.0),
@@ -137,9 +144,6 @@ fn random_vehicles_stay_finite_and_gain_no_energy_without_input() {
         for _ in 0..(3.0 * hz) as usize {
             sim.ticks(1);
             most = most.max(energy(&sim, &car, &plan));
-            if std::env::var("SEED").is_ok_and(|v| v == seed.to_string()) {
-                println!("{case} E {} y {} v {} w {} sweeps {} up {:.2} loads {:?} comp {:?} f {:?}", energy(&sim,&car,&plan), car.pose(&sim).translation.y, car.velocity(&sim).linear, car.velocity(&sim).angular, car.telemetry(&sim).sweeps, (car.pose(&sim).rotation*Vec3::Y).y, car.loads(&sim), car.all(&sim).iter().map(|w| w.compression).collect::<Vec<_>>(), car.all(&sim).iter().map(|w| w.force).collect::<Vec<_>>());
-            }
             finite &= car.finite(&sim);
         }
         found.holds(format!("{case}: finite"), finite);
@@ -169,7 +173,11 @@ fn a_tick_of_a_tenth_of_a_second_among_others_does_no_harm() {
         found.holds(format!("{hz} Hz: finite"), car.finite(&sim));
         let upright = (car.pose(&sim).rotation * Vec3::Y).y;
         found.at_least(format!("{hz} Hz: upright"), upright, 0.98);
-        found.at_most(format!("{hz} Hz: height"), car.pose(&sim).translation.y, HEIGHT + 0.1);
+        found.at_most(
+            format!("{hz} Hz: height"),
+            car.pose(&sim).translation.y,
+            HEIGHT + 0.1,
+        );
     }
 }
 
@@ -195,7 +203,11 @@ fn an_upside_down_car_is_not_held_by_its_wheels() {
 fn a_wheel_does_not_climb_a_wall_beside_it() {
     let mut found = Findings::new();
     for hz in RATES {
-        for probe in [WheelProbe::Ray, WheelProbe::Cylinder, WheelProbe::Sphere { radius: 0.25 }] {
+        for probe in [
+            WheelProbe::Ray,
+            WheelProbe::Cylinder,
+            WheelProbe::Sphere { radius: 0.25 },
+        ] {
             let mut sim = Sim::new(hz);
             sim.floor(0.0);
             for x in [-1.45, 1.45] {
@@ -219,7 +231,9 @@ fn an_intent_that_is_no_number_is_taken_as_nothing_asked() {
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             let mut sim = Sim::new(hz);
             sim.floor(0.0);
-            let car = Plan::reference().direct(500.0, |_| true).park(&mut sim, Quat::IDENTITY);
+            let car = Plan::reference()
+                .direct(500.0, |_| true)
+                .park(&mut sim, Quat::IDENTITY);
             car.ask(&mut sim, |i| {
                 *i = VehicleIntent {
                     throttle: bad,
@@ -253,7 +267,11 @@ fn a_config_out_of_range_leaves_a_body_without_wheels_until_it_is_mended() {
         ("travel", |w, v| w.suspension.travel = v, &[f32::NAN, 0.0]),
         ("friction", |w, v| w.tire.friction.x = v, &[f32::NAN, -1.0]),
         ("load", |w, v| w.tire.nominal_load = v, &[f32::NAN, 0.0]),
-        ("attachment", |w, v| w.attachment.x = v, &[f32::NAN, f32::INFINITY]),
+        (
+            "attachment",
+            |w, v| w.attachment.x = v,
+            &[f32::NAN, f32::INFINITY],
+        ),
     ];
     for (name, spoil, values) in fields {
         for value in values {

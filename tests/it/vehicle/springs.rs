@@ -49,9 +49,16 @@ fn a_quarter_car_swings_with_its_frequency_and_overshoot_at_every_rate() {
         let w = (1.0f32 - 0.04).sqrt();
         let exact = ops::exp(-core::f32::consts::PI * 0.2 / w);
         found.near(format!("{hz} Hz: overshoot at 0.2"), overshoot, exact, 0.02);
-        found.within(format!("{hz} Hz: peak time at 0.2"), time, 0.5 / (1.5 * w), 0.03);
+        found.within(
+            format!("{hz} Hz: peak time at 0.2"),
+            time,
+            0.5 / (1.5 * w),
+            0.03,
+        );
     }
-    let spread = by_rate.iter().fold(0.0f32, |m, o| m.max((o - by_rate[0]).abs()));
+    let spread = by_rate
+        .iter()
+        .fold(0.0f32, |m, o| m.max((o - by_rate[0]).abs()));
     found.at_most("spread between the rates", spread, 0.03);
 }
 
@@ -62,8 +69,10 @@ fn a_dropped_car_never_touches_down_with_its_hull_and_stands_again_in_three_seco
         for height in [0.5, 1.0, 2.0, 10.0] {
             let mut sim = Sim::new(hz);
             sim.floor(0.0);
-            let car = Plan::reference()
-                .spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT + SAG + height, 0.0));
+            let car = Plan::reference().spawn(
+                &mut sim,
+                Transform::from_xyz(0.0, HEIGHT + SAG + height, 0.0),
+            );
             let mut lowest = f32::MAX;
             let mut landed = false;
             let mut rebound = f32::MIN;
@@ -95,8 +104,8 @@ fn a_car_that_falls_at_a_hundred_metres_per_second_does_not_pass_through_the_gro
             for turn in [0.0, core::f32::consts::PI, 1.0] {
                 let mut sim = Sim::new(hz);
                 sim.floor(0.0);
-                let at = Transform::from_xyz(0.0, 20.0, 0.0)
-                    .with_rotation(Quat::from_rotation_z(turn));
+                let at =
+                    Transform::from_xyz(0.0, 20.0, 0.0).with_rotation(Quat::from_rotation_z(turn));
                 let car = Plan::reference().spawn(&mut sim, at);
                 car.push(&mut sim, Vec3::NEG_Y * speed);
                 let mut lowest = f32::MAX;
@@ -120,9 +129,7 @@ fn sag_on_a_lift_is_that_on_the_ground() {
     for hz in RATES {
         for speed in [2.0f32, -2.0] {
             let mut sim = Sim::new(hz);
-            let mover = sim.moving(move |t| {
-                Transform::from_xyz(0.0, -0.5 + speed * t as f32, 0.0)
-            });
+            let mover = sim.moving(move |t| Transform::from_xyz(0.0, -0.5 + speed * t as f32, 0.0));
             sim.spawn((
                 RigidBody::KinematicPositionBased,
                 Collider::cuboid(10.0, 0.5, 10.0),

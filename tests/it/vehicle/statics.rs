@@ -15,8 +15,18 @@ fn a_standing_car_sags_by_g_over_omega_squared() {
         let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT + 0.1, 0.0));
         sim.seconds(5.0);
         for (i, wheel) in car.all(&sim).iter().enumerate() {
-            found.within(format!("{hz} Hz wheel {i}: sag"), wheel.compression, SAG, 0.005);
-            found.within(format!("{hz} Hz wheel {i}: load"), wheel.load, MASS * G / 4.0, 0.005);
+            found.within(
+                format!("{hz} Hz wheel {i}: sag"),
+                wheel.compression,
+                SAG,
+                0.005,
+            );
+            found.within(
+                format!("{hz} Hz wheel {i}: load"),
+                wheel.load,
+                MASS * G / 4.0,
+                0.005,
+            );
         }
         let y = car.pose(&sim).translation.y;
         found.near(format!("{hz} Hz: height"), y, HEIGHT, 0.005 * SAG);

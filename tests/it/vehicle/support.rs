@@ -66,8 +66,9 @@ impl Findings {
             eprintln(&format!("{what}: {measured} at most {bound}"));
         }
         if measured.is_nan() || measured > bound {
-            self.wrong
-                .push(format!("{what}: measured {measured}, wanted at most {bound}"));
+            self.wrong.push(format!(
+                "{what}: measured {measured}, wanted at most {bound}"
+            ));
         }
     }
 
@@ -303,10 +304,14 @@ impl Car {
             && pose.rotation.is_finite()
             && velocity.linear.is_finite()
             && velocity.angular.is_finite()
-            && state.wheels.iter().all(|w| {
-                w.spin.is_finite() && w.bristle.is_finite() && w.compression.is_finite()
-            })
-            && self.all(sim).iter().all(|w| w.load.is_finite() && w.force.is_finite())
+            && state
+                .wheels
+                .iter()
+                .all(|w| w.spin.is_finite() && w.bristle.is_finite() && w.compression.is_finite())
+            && self
+                .all(sim)
+                .iter()
+                .all(|w| w.load.is_finite() && w.force.is_finite())
     }
 }
 

@@ -78,7 +78,12 @@ fn an_anti_roll_bar_moves_load_to_its_axle_and_none_across_the_car() {
             let load = car.loads(&sim);
             let (front, rear) = (load[0] - load[1], load[2] - load[3]);
             share.push(front / (front + rear));
-            found.within(format!("{hz} Hz {bar}: sum"), load.iter().sum(), MASS * G, 0.01);
+            found.within(
+                format!("{hz} Hz {bar}: sum"),
+                load.iter().sum(),
+                MASS * G,
+                0.01,
+            );
         }
         // Springs of 33 kN/m alone share evenly; a bar of 30 kN/m between the wheels counts twice:
         // (33.3 + 60) / (33.3 + 60 + 33.3).
