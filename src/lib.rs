@@ -3,9 +3,12 @@
 #![warn(clippy::disallowed_methods)]
 
 mod backend;
-#[cfg(all(feature = "character", any(feature = "debug", feature = "egui")))]
+#[cfg(any(
+    all(feature = "character", any(feature = "debug", feature = "egui")),
+    all(feature = "vehicle", feature = "debug")
+))]
 pub mod debug;
-#[cfg(feature = "character")]
+#[cfg(any(feature = "character", feature = "vehicle"))]
 mod diagnostics;
 pub mod interpolation;
 #[cfg(any(feature = "character", feature = "vehicle"))]
@@ -29,8 +32,14 @@ pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
 pub use debug::EmbodyDebugPlugin;
 #[cfg(all(feature = "character", feature = "egui"))]
 pub use debug::EmbodyInspectorPlugin;
+#[cfg(all(feature = "vehicle", feature = "debug"))]
+pub use debug::VehicleDebugPlugin;
 #[cfg(feature = "character")]
-pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
+pub use diagnostics::CharacterDiagnostics;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+pub use diagnostics::EmbodyDiagnosticsPlugin;
+#[cfg(feature = "vehicle")]
+pub use diagnostics::VehicleDiagnostics;
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
 pub use teleport::Teleported;
 

@@ -20,6 +20,7 @@ mod drive;
 mod drivetrain;
 mod events;
 mod intent;
+mod measure;
 mod output;
 mod prepare;
 mod present;
@@ -41,7 +42,9 @@ use bevy_rapier3d::prelude::PhysicsSet;
 
 #[cfg(doc)]
 use crate::schedule::EmbodyCorePlugin;
-use crate::{backend::world::ForcedBodies, schedule::EmbodySystems};
+use crate::{
+    backend::world::ForcedBodies, diagnostics::VehicleDiagnostics, schedule::EmbodySystems,
+};
 
 pub use aero::Aero;
 pub use assists::{AntiLockBrakes, HillHold, LeanControl, StabilityControl, TractionControl};
@@ -99,6 +102,7 @@ impl Plugin for VehiclePlugin {
             .register_type::<HillHold>()
             .register_type::<LeanControl>()
             .init_resource::<ForcedBodies>()
+            .init_resource::<measure::Stopwatch>()
             .configure_sets(
                 FixedPostUpdate,
                 (
@@ -123,7 +127,13 @@ impl Plugin for VehiclePlugin {
                     (prepare::check_configs, prepare::set_masses)
                         .chain()
                         .in_set(VehicleSystems::Prepare),
-                    (drive::admit_new, drive::solve_vehicles, drive::apply_forces)
+                    (
+                        measure::start.run_if(resource_exists::<VehicleDiagnostics>),
+                        drive::admit_new,
+                        drive::solve_vehicles,
+                        drive::apply_forces,
+                        measure::stop.run_if(resource_exists::<VehicleDiagnostics>),
+                    )
                         .chain()
                         .in_set(VehicleSystems::Drive),
                     (

@@ -52,6 +52,8 @@ pub(crate) struct Contact<'a> {
     /// contact then is.
     pub ground_start: Vec3,
     pub ground_end: Vec3,
+    /// By how much the latter is other than it is, to make up for how the step moves bodies.
+    pub ground_drift: Vec3,
     /// The dynamic body it stands on, by index, and the arm from that body's centre of mass.
     pub ground: Option<(usize, Vec3)>,
     pub law: Law,

@@ -56,7 +56,7 @@ pub(super) fn build<'a>(
         let ground_end = ground_at(touch.point + own_velocity * s.dt);
         // The step moves a body a little more by its last velocity than by its first: on a circle
         // that would lead inward.
-        let ground_end = ground_end.lerp(ground_start, s.view.end_share() - 0.5);
+        let ground_drift = (ground_start - ground_end) * (s.view.end_share() - 0.5);
         if !ground_start.is_finite() || !ground_end.is_finite() {
             continue;
         }
@@ -123,7 +123,8 @@ pub(super) fn build<'a>(
             across,
             cosine: touch.cosine,
             ground_start,
-            ground_end,
+            ground_end: ground_end + ground_drift,
+            ground_drift,
             ground,
             law: f.law,
             compression: f.compression,

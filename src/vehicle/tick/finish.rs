@@ -174,7 +174,8 @@ pub(super) fn finish(
         let grip = contact.grip / dt;
         let velocity = contact.velocity(solved.chassis, solved.grounds);
         let flat = Vec2::new(velocity.dot(contact.along), velocity.dot(contact.across));
-        last.expected = flat;
+        let drift = contact.ground_drift;
+        last.expected = flat + Vec2::new(drift.dot(contact.along), drift.dot(contact.across));
         let out = &mut report.outputs[i];
         if let Some(patch) = &contact.patch {
             last.bristle = grip / patch.carcass;
