@@ -70,6 +70,8 @@ pub struct WheelDynamics {
     pub compression_rate: f32,
     /// Deflection of the tyre along and across, metres.
     pub bristle: Vec2,
+    /// Slip velocity of the patch, along and across together, metres per second.
+    pub slip: f32,
     /// Velocity of the hub against the ground that the last tick led to, along and across, metres per
     /// second: what it is now beyond that was done by others, and deflects the tyre.
     pub expected: Vec2,
@@ -96,6 +98,7 @@ impl Default for WheelDynamics {
             compression: 0.0,
             compression_rate: 0.0,
             bristle: Vec2::ZERO,
+            slip: 0.0,
             expected: Vec2::ZERO,
             ground_force: Vec3::ZERO,
             ground: None,

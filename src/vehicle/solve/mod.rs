@@ -13,8 +13,8 @@
 //! - **tyres** ([`tires`]): each wheel's two impulses by a secant of its curve, on the friction
 //!   ellipse, implicitly in slip and carcass.
 //!
-//! Sweeps over the three repeat until no impulse changes by more than 1e-5 of the wheel's load, at
-//! most [`MOST_SWEEPS`] times. Each is implicit, so that no stiffness, friction, brake torque or `dt`
+//! Sweeps over the three begin with the last tick's impulses and repeat until none changes by more than
+//! 1e-5 of the wheel's load, at most [`MOST_SWEEPS`] times. Each is implicit, so that no stiffness, friction, brake torque or `dt`
 //! makes the tick unstable; a sweep that has not converged is still a valid, passive step. Cost: about
 //! `n³ / 6` for the normals, `(n + 1)²` for each row that holds, and `n²` for each sweep.
 
@@ -73,13 +73,13 @@ pub(crate) struct Contact<'a> {
     pub turn_slip: Vec2,
     /// Slip across that the camber adds, dimensionless.
     pub camber_slip: f32,
-    // Found by the solve.
+    /// Velocity for each newton-second along and across, of chassis and ground, 1/kg.
+    pub mobility: Vec2,
+    // Found by the solve; they begin as in the last tick.
     /// Impulse along the normal, newton-seconds.
     pub push: f32,
     /// Impulses of the tyre along and across, newton-seconds.
     pub grip: Vec2,
-    /// Slip velocity of the patch, metres per second.
-    pub slip: Vec2,
     /// Combined slip velocity, metres per second.
     pub combined: f32,
     /// Speed that the slip is measured against, metres per second.
@@ -103,6 +103,7 @@ impl Problem<'_, '_> {
     /// tick. Returns the number of sweeps.
     pub fn solve(&mut self) -> u32 {
         let mut normals = normal::Normals::new(self);
+        tires::start(self);
         self.spin.start(self.dt);
         let mut sweeps = 0;
         // Without contacts the spins are all there is.

@@ -139,6 +139,11 @@ impl Spin {
         self.inverse[wheel][wheel]
     }
 
+    /// The impulse that a tyre begins with about its axle, newton-metre-seconds, against the spin.
+    pub fn preload(&mut self, wheel: usize, impulse: f64) {
+        self.tires[wheel] = impulse;
+    }
+
     /// A change of a tyre's impulse about its axle, newton-metre-seconds, against the spin.
     pub fn push(&mut self, wheel: usize, impulse: f64) {
         self.tires[wheel] += impulse;

@@ -15,6 +15,24 @@ use bevy::math::Vec2;
 use super::{Contact, Problem};
 use crate::vehicle::tire::Patch;
 
+/// Applies what the tyres begin with.
+pub(super) fn start(problem: &mut Problem) {
+    for i in 0..problem.contacts.len() {
+        let contact = &problem.contacts[i];
+        let (chassis, grounds) = (&problem.chassis, &*problem.grounds);
+        let own = |axis| contact.mobility(axis, contact, axis, chassis, grounds);
+        let mobility = Vec2::new(own(contact.along), own(contact.across));
+        let contact = &mut problem.contacts[i];
+        contact.mobility = mobility;
+        let impulse = contact.normal * contact.push
+            + contact.along * contact.grip.x
+            + contact.across * contact.grip.y;
+        contact.push_both(impulse, &mut problem.chassis, problem.grounds);
+        let turned = contact.grip.x * contact.radius;
+        problem.spin.preload(contact.wheel, f64::from(turned));
+    }
+}
+
 /// One step for every wheel; returns the greatest change in parts of the friction limit.
 pub(super) fn sweep(problem: &mut Problem) -> f32 {
     let mut change = 0.0f32;
@@ -24,30 +42,23 @@ pub(super) fn sweep(problem: &mut Problem) -> f32 {
         let (wheel, radius) = (contact.wheel, contact.radius);
         let before = contact.grip;
         let load = contact.push / dt;
-        let grip = if load > 0.0 {
+        let mut grip = Vec2::ZERO;
+        if load > 0.0 {
             let patch = match contact.patch {
-                Some(patch) => patch,
-                None => Patch::new(contact.tire, load, contact.surface),
+                Some(patch) if (patch.load - load).abs() <= 1.0e-5 * load => patch,
+                _ => Patch::new(contact.tire, load, contact.surface),
             };
-            let patch = if (patch.load - load).abs() > 1.0e-5 * load {
-                Patch::new(contact.tire, load, contact.surface)
-            } else {
-                patch
-            };
-            let (grip, slip, combined) = solve(problem, i, &patch);
+            let step = step(problem, i, &patch);
             let contact = &mut problem.contacts[i];
             contact.patch = Some(patch);
-            contact.slip = slip;
-            contact.combined = combined;
+            contact.combined = step.next;
             let scale = dt * patch.limit.max_element() + 1.0e-6;
-            change = change.max((grip - before).abs().max_element() / scale);
-            grip
+            let moved = (step.grip - before).abs().max_element();
+            change = change.max(moved.max(step.open) / scale);
+            grip = step.grip;
         } else {
-            let contact = &mut problem.contacts[i];
-            contact.slip = Vec2::ZERO;
-            contact.combined = 0.0;
-            Vec2::ZERO
-        };
+            problem.contacts[i].combined = 0.0;
+        }
         let delta = grip - before;
         if delta == Vec2::ZERO || !delta.is_finite() {
             continue;
@@ -61,55 +72,61 @@ pub(super) fn sweep(problem: &mut Problem) -> f32 {
     change
 }
 
-/// Impulse, slip velocity of the patch and combined slip velocity of one wheel.
-fn solve(problem: &Problem, i: usize, patch: &Patch) -> (Vec2, Vec2, f32) {
+/// What one step finds.
+struct Step {
+    /// Newton-seconds.
+    grip: Vec2,
+    /// Combined slip velocity to go on with, metres per second.
+    next: f32,
+    /// By how much that will still change the impulse, newton-seconds.
+    open: f32,
+}
+
+fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     let dt = problem.dt;
     let contact: &Contact = &problem.contacts[i];
-    let (chassis, grounds) = (&problem.chassis, &*problem.grounds);
-    let velocity = contact.velocity(chassis, grounds);
+    let velocity = contact.velocity(&problem.chassis, problem.grounds);
     let spin = problem.spin.w[contact.wheel] as f32 * contact.radius;
     let slip = Vec2::new(
         spin - velocity.dot(contact.along),
         contact.camber_slip * contact.speed - velocity.dot(contact.across),
     ) + contact.turn_slip;
     let turned = problem.spin.mobility(contact.wheel) as f32 * contact.radius * contact.radius;
-    let own = |axis| contact.mobility(axis, contact, axis, chassis, grounds);
-    let mobility = Vec2::new(own(contact.along) + turned, own(contact.across));
+    let mobility = contact.mobility + Vec2::new(turned, 0.0);
     // What the slip would be without this tyre's impulse, the stretch of the carcass included.
     let drive = contact.bristle / dt + slip + mobility * contact.grip;
     let stiff = mobility + (patch.carcass * (dt * dt)).recip();
 
-    let step = |combined: f32| {
-        let secant = patch.secant(combined, contact.speed);
-        let grip = drive / (stiff + secant.compliance / dt);
-        (secant, grip, grip * secant.compliance / dt)
-    };
-    let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
     let mut combined = contact.combined;
-    let (mut secant, mut grip, mut slipping) = step(combined);
+    let mut secant = patch.secant(combined, contact.speed);
+    let mut grip = drive / (stiff + secant.compliance / dt);
+    let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
     let excess = (grip / limit).length();
     if excess > 1.0 + 1.0e-4 {
         // Full slide: the rest of the drive is slip.
         combined = patch.combined(drive * (1.0 - 1.0 / excess), contact.speed);
-        (secant, grip, slipping) = step(combined);
+        secant = patch.secant(combined, contact.speed);
+        grip = drive / (stiff + secant.compliance / dt);
     }
     // One step of Newton's towards the combined slip that belongs to this impulse.
-    let reached = patch.combined(slipping, contact.speed);
+    let mut next = combined;
+    let mut open = 0.0;
     let weight = grip.length_squared();
     if weight > 0.0 {
+        let reached = patch.combined(grip * secant.compliance / dt, contact.speed);
         let stiffness = (grip * grip).dot(stiff) / weight * dt;
         let compliance = (grip * grip).dot(secant.compliance) / weight;
         if compliance > 0.0 {
             let slope = (1.0 + stiffness * secant.slope).max(0.3);
-            let next = combined + (reached - combined) * (1.0 + stiffness / compliance) / slope;
-            combined = next.clamp(0.0, patch.combined(drive, contact.speed));
+            next = combined + (reached - combined) * (1.0 + stiffness / compliance) / slope;
+            next = next.clamp(0.0, patch.combined(drive, contact.speed));
+            open = (next - combined).abs() * secant.slope.abs() * dt;
         }
-        (_, grip, slipping) = step(combined);
     }
-    // Newton's last step may leave the ellipse by a little.
+    // A slip that has not converged may leave the ellipse by a little.
     let excess = (grip / limit).length();
     if excess > 1.0 {
         grip /= excess;
     }
-    (grip, slipping, combined)
+    Step { grip, next, open }
 }

@@ -114,6 +114,12 @@ pub(super) fn build<'a>(
         if same_ground && speed < SLOW {
             bristle -= (flat - last.expected) * s.dt;
         }
+        // The last tick's impulse is where the solve begins.
+        let before = if same_ground {
+            last.ground_force * -s.dt
+        } else {
+            Vec3::ZERO
+        };
         let lean = f.axle.dot(touch.normal).clamp(-1.0, 1.0);
         contacts.push(Contact {
             wheel: i,
@@ -137,10 +143,10 @@ pub(super) fn build<'a>(
             turn_slip,
             // Leaning to the right pushes to the right.
             camber_slip: -wheel.tire.camber_stiffness * ops::asin(lean),
-            push: 0.0,
-            grip: Vec2::ZERO,
-            slip: Vec2::ZERO,
-            combined: 0.0,
+            mobility: Vec2::ZERO,
+            push: before.dot(touch.normal).max(0.0),
+            grip: Vec2::new(before.dot(along), before.dot(across)),
+            combined: if same_ground { last.slip } else { 0.0 },
             speed,
             patch: None,
         });

@@ -169,6 +169,7 @@ pub(super) fn finish(
                 wake: changed,
             });
         }
+        last.slip = contact.combined;
         last.ground_force = -pushed;
         let load = contact.push / dt;
         let grip = contact.grip / dt;
@@ -235,6 +236,7 @@ pub(super) fn finish(
             }
             last.air_time += dt;
             last.bristle = Vec2::ZERO;
+            last.slip = 0.0;
             last.ground_force = Vec3::ZERO;
             last.bottomed = false;
             if last.slipping {
