@@ -15,7 +15,7 @@ pub(crate) mod collider;
 #[cfg(any(feature = "character", feature = "vehicle"))]
 #[cfg_attr(
     not(feature = "character"),
-    expect(dead_code, unused_imports, reason = "what only characters ask")
+    expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod neighbourhood;
 #[cfg(feature = "vehicle")]

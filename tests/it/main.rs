@@ -2,3 +2,4 @@
 
 mod character;
 mod foundation;
+mod vehicle;

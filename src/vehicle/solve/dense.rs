@@ -1,5 +1,10 @@
 //! A small symmetric linear system, solved directly.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "indices are the mathematics here"
+)]
+
 use super::MOST_WHEELS as N;
 
 /// A symmetric positive definite matrix of up to 16 rows, factored as `L D Lᵀ`.
@@ -71,7 +76,7 @@ mod tests {
                     n as f64 + i as f64
                 } else {
                     1.0 / (1.0 + i as f64 + 2.0 * j as f64)
-                        * if (i + j) % 3 == 0 { -1.0 } else { 1.0 }
+                        * if (i + j).is_multiple_of(3) { -1.0 } else { 1.0 }
                 }
             };
             let mut ldlt = Ldlt::new();

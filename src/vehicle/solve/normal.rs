@@ -6,6 +6,11 @@
 //! With `v₁ = v* + W p` that is `(W + B⁻¹) p = B⁻¹ A − v*`, solved here for the change of `p` that the
 //! present velocities ask for. `B` falls apart into blocks of one wheel or the two of an axle.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "indices are the mathematics here"
+)]
+
 use super::{Contact, MOST_WHEELS, Problem, dense::Ldlt};
 use crate::vehicle::suspension::{Piece, Scheme};
 

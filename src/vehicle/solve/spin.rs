@@ -6,6 +6,11 @@
 //! compliance of 1e-7 of their mobility, so that two rows that hold the same wheel share the load.
 //! Rows at their limit are known impulses. In double precision.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "indices are the mathematics here"
+)]
+
 use super::MOST_WHEELS;
 
 const N: usize = MOST_WHEELS + 1;

@@ -101,12 +101,16 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     let mut secant = patch.secant(combined, contact.speed);
     let mut grip = drive / (stiff + secant.compliance / dt);
     let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
-    let excess = (grip / limit).length();
-    if excess > 1.0 + 1.0e-4 {
-        // Full slide: the rest of the drive is slip.
-        combined = patch.combined(drive * (1.0 - 1.0 / excess), contact.speed);
-        secant = patch.secant(combined, contact.speed);
-        grip = drive / (stiff + secant.compliance / dt);
+    if (grip / limit).length() > 1.0 + 1.0e-4 {
+        // A full slide: what the carcass alone would hold beyond the limit is slip. From far below,
+        // Newton's steps would be small.
+        let held = (drive / stiff / limit).length().max(1.0);
+        let slide = patch.combined(drive * (1.0 - 1.0 / held), contact.speed);
+        if combined < 0.5 * slide {
+            combined = slide;
+            secant = patch.secant(combined, contact.speed);
+            grip = drive / (stiff + secant.compliance / dt);
+        }
     }
     // One step of Newton's towards the combined slip that belongs to this impulse.
     let mut next = combined;

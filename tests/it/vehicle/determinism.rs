@@ -28,7 +28,7 @@ fn bits(sim: &Sim, car: &Car) -> Vec<u32> {
     let (pose, velocity, state) = (car.pose(sim), car.velocity(sim), car.state(sim));
     let mut bits: Vec<u32> = [pose.translation, velocity.linear, velocity.angular]
         .iter()
-        .flat_map(|v| v.to_array())
+        .flat_map(Vec3::to_array)
         .chain(pose.rotation.to_array())
         .map(f32::to_bits)
         .collect();

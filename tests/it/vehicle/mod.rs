@@ -8,6 +8,7 @@ mod determinism;
 mod ground;
 mod hills;
 mod life;
+mod places;
 mod presets;
 mod resistance;
 mod robust;
