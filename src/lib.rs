@@ -75,13 +75,13 @@ pub mod prelude {
     #[doc(hidden)]
     pub use crate::vehicle::{
         Aero, AntiLockBrakes, BottomedOut, Brakes, Clutch, Damper, Differential, DrivenAxle,
-        Drivetrain, ElectricMotor, Engine, EngineStalled, Gear, GearShifted, Gearbox, HillHold,
-        LeanControl, PowerSource, RoadVelocity, Shifting, SlipEnded, SlipPoint, SlipStarted,
-        SpringRate, StabilityControl, SteerPoint, Steering, SurfaceFriction, Suspension, Tire,
-        TireModel, TorquePoint, TractionControl, Vehicle, VehicleIntent, VehicleMass,
-        VehiclePlugin, VehiclePreset, VehicleState, VehicleSystems, VehicleTelemetry, Wheel,
-        WheelContact, WheelDynamics, WheelLanded, WheelLeftGround, WheelOf, WheelProbe, WheelState,
-        Wheels,
+        Drivetrain, ElectricMotor, Engine, EngineStalled, Gear, GearShifted, Gearbox, GroundPlane,
+        HillHold, LeanControl, PowerSource, ProbeInterval, RoadVelocity, Shifting, SlipEnded,
+        SlipPoint, SlipStarted, SpringRate, StabilityControl, SteerPoint, Steering,
+        SurfaceFriction, Suspension, Tire, TireModel, TorquePoint, TractionControl, Vehicle,
+        VehicleIntent, VehicleMass, VehiclePlugin, VehiclePreset, VehicleState, VehicleSystems,
+        VehicleTelemetry, Wheel, WheelContact, WheelDynamics, WheelLanded, WheelLeftGround,
+        WheelOf, WheelProbe, WheelState, Wheels,
     };
     #[doc(hidden)]
     pub use crate::{

@@ -16,7 +16,7 @@ use super::{
     report::{GroundPush, VehicleReport},
     state::VehicleState,
     tick::{self, Assists, Scratch, Surfaces, Surroundings, WheelList},
-    wheel::{Wheel, Wheels},
+    wheel::{ProbeInterval, Wheel, Wheels},
 };
 use crate::backend::world::{PhysicsWorlds, PhysicsWorldsMut};
 
@@ -47,6 +47,7 @@ pub(super) fn solve_vehicles(
             Option<&StabilityControl>,
             Option<&HillHold>,
             Option<&LeanControl>,
+            Option<&ProbeInterval>,
         ),
         &mut VehicleState,
         &mut VehicleTelemetry,
@@ -63,7 +64,7 @@ pub(super) fn solve_vehicles(
         |(
             (config, intent, tied),
             (link, handle, groups),
-            (abs, traction, stability, hill, lean),
+            (abs, traction, stability, hill, lean, interval),
             mut state,
             mut telemetry,
             mut report,
@@ -91,6 +92,7 @@ pub(super) fn solve_vehicles(
                 groups: groups.copied(),
                 surfaces: &surfaces,
                 wheels: list,
+                probe_every: interval.map_or(1, |i| i.ticks),
                 assists: Assists {
                     abs,
                     traction,

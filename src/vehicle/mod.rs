@@ -59,12 +59,12 @@ pub use events::{
 pub use intent::{Gear, VehicleIntent};
 pub use output::{VehicleTelemetry, WheelContact, WheelState};
 pub use presets::VehiclePreset;
-pub use state::{VehicleState, WheelDynamics};
+pub use state::{GroundPlane, VehicleState, WheelDynamics};
 pub use steering::{SteerPoint, Steering};
 pub use surface::{RoadVelocity, SurfaceFriction};
 pub use suspension::{Damper, SpringRate, Suspension};
 pub use tire::{SlipPoint, Tire, TireModel};
-pub use wheel::{Wheel, WheelOf, WheelProbe, Wheels};
+pub use wheel::{ProbeInterval, Wheel, WheelOf, WheelProbe, Wheels};
 
 /// Where vehicles work in a tick; each right behind the set of the same name of [`EmbodySystems`].
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -101,6 +101,7 @@ impl Plugin for VehiclePlugin {
             .register_type::<StabilityControl>()
             .register_type::<HillHold>()
             .register_type::<LeanControl>()
+            .register_type::<ProbeInterval>()
             .init_resource::<ForcedBodies>()
             .init_resource::<measure::Stopwatch>()
             .configure_sets(

@@ -12,8 +12,10 @@ use bevy::{
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serialize", reflect(Serialize, Deserialize))]
 pub struct VehicleState {
-    /// Speed of engine or motor shaft, radians per second; `NAN` until the first tick.
+    /// Speed of engine or motor shaft, radians per second; 0 until the first tick.
     pub engine_speed: f32,
+    /// Whether the engine was brought to its idle speed, as the first tick does.
+    pub started: bool,
     /// Whether the engine has died.
     pub stalled: bool,
     /// Gear: −1 reverse, 0 neutral, from 1 on forward.
@@ -32,6 +34,8 @@ pub struct VehicleState {
     pub hill_hold: f32,
     /// Whether the fuel is cut at the redline.
     pub limiting: bool,
+    /// Ticks since the ground was last looked for; see [`ProbeInterval`](super::ProbeInterval).
+    pub probe_age: u8,
     /// The wheels, in the order of [`Wheels`](super::Wheels).
     #[entities]
     pub wheels: Vec<WheelDynamics>,
@@ -40,7 +44,8 @@ pub struct VehicleState {
 impl Default for VehicleState {
     fn default() -> Self {
         Self {
-            engine_speed: f32::NAN,
+            engine_speed: 0.0,
+            started: false,
             stalled: false,
             gear: 1,
             shifting: 0.0,
@@ -50,6 +55,7 @@ impl Default for VehicleState {
             traction_cut: 1.0,
             hill_hold: 0.0,
             limiting: false,
+            probe_age: 0,
             wheels: Vec::new(),
         }
     }
@@ -80,6 +86,9 @@ pub struct WheelDynamics {
     /// The entity of the collider that the wheel stands on.
     #[entities]
     pub ground: Option<Entity>,
+    /// The plane on which the wheel was last found, where it is not looked for each tick.
+    #[entities]
+    pub plane: Option<GroundPlane>,
     /// Part of the brake that the anti-lock system leaves on, `0..=1`.
     pub abs: f32,
     /// Time since it left the ground, seconds; 0 on it.
@@ -102,10 +111,25 @@ impl Default for WheelDynamics {
             expected: Vec2::ZERO,
             ground_force: Vec3::ZERO,
             ground: None,
+            plane: None,
             abs: 1.0,
             air_time: 0.0,
             slipping: false,
             bottomed: false,
         }
     }
+}
+
+/// A plane of ground, in the frame of its collider.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq, MapEntities)]
+#[reflect(Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct GroundPlane {
+    /// The entity of the collider.
+    #[entities]
+    pub entity: Entity,
+    /// A point of it, metres.
+    pub point: Vec3,
+    /// Unit length.
+    pub normal: Vec3,
 }

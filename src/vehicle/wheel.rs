@@ -98,6 +98,23 @@ pub enum WheelProbe {
     Cylinder,
 }
 
+/// On a vehicle: looks for the ground only every so many ticks, as a vehicle far away may. In between
+/// each wheel stands on the plane it was last found on, extended; a wheel in the air always looks.
+/// Kerbs and gaps are met late by that many ticks.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct ProbeInterval {
+    /// Ticks from one look to the next; 1 looks in each, as does 0.
+    pub ticks: u8,
+}
+
+impl Default for ProbeInterval {
+    fn default() -> Self {
+        Self { ticks: 4 }
+    }
+}
+
 /// On a wheel: the vehicle it belongs to.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
 #[reflect(Component, Debug, PartialEq, Clone)]

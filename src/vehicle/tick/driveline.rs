@@ -150,7 +150,8 @@ fn drive(
                 ratio = drivetrain.gearbox.forward.first().copied().unwrap_or(1.0)
                     * drivetrain.final_drive;
             }
-            if state.engine_speed.is_nan() {
+            if !state.started {
+                state.started = true;
                 state.engine_speed = mean * ratio;
             }
             line.power = motor_power(motor, state.engine_speed, throttle, direction);
@@ -159,7 +160,8 @@ fn drive(
         }
         PowerSource::Engine(engine) => {
             let idle = from_rpm(engine.idle);
-            if state.engine_speed.is_nan() {
+            if !state.started {
+                state.started = true;
                 state.engine_speed = idle;
             }
             if state.stalled && asked.starter {

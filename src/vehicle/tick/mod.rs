@@ -58,6 +58,8 @@ pub(super) struct Surroundings<'a, 'w, 's> {
     pub groups: Option<CollisionGroups>,
     pub surfaces: &'a Surfaces<'w, 's>,
     pub wheels: WheelList<'a>,
+    /// Ticks from one look at the ground to the next.
+    pub probe_every: u8,
     pub assists: Assists<'a>,
 }
 
@@ -135,6 +137,7 @@ pub(super) fn run(
 
     let angles = steer::steer(s, config, state, &asked, speed);
     let found = sense::sense(s, config, state, report, &rigid, &angles, gravity);
+    sense::remember(s, state, &found);
 
     // What the body would do without wheels.
     let mut chassis = Chassis {

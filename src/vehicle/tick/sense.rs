@@ -13,7 +13,7 @@ use crate::{
         config::Vehicle,
         report::VehicleReport,
         solve::MOST_WHEELS,
-        state::VehicleState,
+        state::{GroundPlane, VehicleState},
         suspension::Law,
         wheel::{Wheel, WheelProbe},
     },
@@ -57,9 +57,16 @@ pub(super) fn sense(
             let frame = frame(wheel, rigid, angles[i]);
             let law = Law::new(&wheel.suspension, report.shares[i]);
             let top = rigid.position + rigid.rotation * wheel.attachment;
-            let touch = look(s, wheel, rigid, &frame, top, least_cosine);
             let travel = wheel.suspension.travel;
             let last = &state.wheels[i];
+            let known = (state.probe_age + 1 < s.probe_every)
+                .then_some(last.plane)
+                .flatten()
+                .and_then(|plane| extend(s, &plane));
+            let touch = match known {
+                Some(hit) => rest_on_plane(wheel, &frame, top, &hit, least_cosine),
+                None => look(s, wheel, rigid, &frame, top, least_cosine),
+            };
             let mut found = Found {
                 axle: frame.axle,
                 law,
@@ -92,6 +99,40 @@ pub(super) fn sense(
             found
         })
         .collect()
+}
+
+/// The plane that a wheel was last found on, where its collider is now.
+fn extend(s: &Surroundings, plane: &GroundPlane) -> Option<ProbeHit> {
+    let (position, rotation) = s.view.collider_pose(plane.entity)?;
+    Some(ProbeHit {
+        distance: 0.0,
+        point: position + rotation * plane.point,
+        normal: rotation * plane.normal,
+        entity: plane.entity,
+    })
+}
+
+/// Keeps the planes that the wheels stand on, for the ticks that do not look.
+pub(super) fn remember(s: &Surroundings, state: &mut VehicleState, found: &[Found]) {
+    if s.probe_every <= 1 {
+        return;
+    }
+    if state.probe_age + 1 < s.probe_every {
+        state.probe_age += 1;
+    } else {
+        state.probe_age = 0;
+    }
+    for (last, found) in state.wheels.iter_mut().zip(found) {
+        last.plane = found.contact.and_then(|touch| {
+            let (position, rotation) = s.view.collider_pose(touch.entity)?;
+            let back = rotation.inverse();
+            Some(GroundPlane {
+                entity: touch.entity,
+                point: back * (touch.point - position),
+                normal: back * touch.normal,
+            })
+        });
+    }
 }
 
 struct Frame {

@@ -127,6 +127,12 @@ fn a_state_that_is_put_back_goes_on_as_it_did() {
 }
 
 #[test]
+fn a_new_state_is_equal_to_itself() {
+    // What is no number would be not.
+    assert_eq!(VehicleState::default(), VehicleState::default());
+}
+
+#[test]
 fn a_lap_takes_as_long_and_ends_where_it_does_at_every_tick_rate() {
     let mut found = Findings::new();
     let run = |hz: f64| {

@@ -12,6 +12,7 @@ mod places;
 mod presets;
 mod resistance;
 mod robust;
+mod saving;
 mod springs;
 mod statics;
 mod traction;

@@ -272,3 +272,28 @@ fn the_greatest_cornering_is_that_of_friction() {
         found.within(format!("{hz} Hz"), most, G, 0.05);
     }
 }
+
+#[test]
+fn a_far_vehicle_that_looks_every_fourth_tick_drives_as_one_that_always_looks() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let run = |ticks: u8| {
+            let mut sim = Sim::new(hz);
+            let terrain = Patch::terrain(60, 2.0, |x, z| {
+                0.5 * ops::sin(0.15 * x) + 0.5 * ops::cos(0.1 * z)
+            });
+            sim.fixed(terrain.collider(), Transform::from_xyz(-60.0, 0.0, -100.0));
+            let plan = Plan::reference().direct(500.0, |_| true);
+            let car = plan.spawn(&mut sim, Transform::from_xyz(0.0, 1.8, 0.0));
+            insert(&mut sim, car.body, ProbeInterval { ticks });
+            sim.seconds(1.0);
+            car.ask(&mut sim, |i| i.throttle = 1.0);
+            sim.seconds(5.0);
+            car.pose(&sim).translation
+        };
+        let (always, seldom) = (run(1), run(4));
+        found.at_least(format!("{hz} Hz: drives"), always.length(), 10.0);
+        let off = (always - seldom).length();
+        found.at_most(format!("{hz} Hz: off"), off, 0.02 * always.length());
+    }
+}
