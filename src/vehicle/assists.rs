@@ -54,7 +54,7 @@ impl Default for StabilityControl {
     fn default() -> Self {
         Self {
             tolerance: 0.08,
-            strength: 8000.0,
+            strength: 15_000.0,
         }
     }
 }

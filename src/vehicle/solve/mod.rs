@@ -14,7 +14,7 @@
 //!   ellipse, implicitly in slip and carcass.
 //!
 //! Sweeps over the three begin with the last tick's impulses and repeat until none changes by more than
-//! 1e-5 of the wheel's load, at most [`MOST_SWEEPS`] times. Each is implicit, so that no stiffness, friction, brake torque or `dt`
+//! 3e-5 of the wheel's load, at most [`MOST_SWEEPS`] times. Each is implicit, so that no stiffness, friction, brake torque or `dt`
 //! makes the tick unstable; a sweep that has not converged is still a valid, passive step. Cost: about
 //! `n³ / 6` for the normals, `(n + 1)²` for each row that holds, and `n²` for each sweep.
 
@@ -33,6 +33,8 @@ use super::{suspension::Law, tire::Patch};
 
 /// The most wheels of a vehicle.
 pub(crate) const MOST_WHEELS: usize = 16;
+/// Change of an impulse in parts of a wheel's load that ends the sweeps.
+const CLOSE: f32 = 3.0e-5;
 /// The most sweeps of a tick.
 pub(crate) const MOST_SWEEPS: u32 = 24;
 
@@ -112,7 +114,7 @@ impl Problem<'_, '_> {
             let mut change = normals.sweep(self, sweeps <= 8);
             change = change.max(tires::sweep(self));
             let switched = self.spin.switch(sweeps <= 12);
-            if !switched && change < 1.0e-5 && sweeps > 1 {
+            if !switched && change < CLOSE && sweeps > 1 {
                 break;
             }
         }

@@ -205,7 +205,6 @@ impl Normals {
                 force += bar * (c.compression - other.compression);
                 let cross = bar / (c.cosine * other.cosine);
                 from_start -= dt * scheme.a * cross * self.start[j];
-                // The stiffer side's weight, on both sides: the system stays symmetric.
                 self.off[i] = -f64::from(dt * dt * cross);
             }
             self.a[i] = f64::from(dt * (force / c.cosine - from_start));
@@ -216,6 +215,7 @@ impl Normals {
             if let Some((j, _)) = c.bar
                 && i < j
             {
+                // The smaller weight on both sides: the system stays symmetric and positive.
                 let least = self.off[i].max(self.off[j]);
                 (self.off[i], self.off[j]) = (least, least);
             }

@@ -61,7 +61,7 @@ pub(super) fn brakes(
         torque: ArrayVec::new(),
         abs: ArrayVec::new(),
     };
-    let stability = stability(s, state, rigid, axes, speed);
+    let (stability, at_front) = stability(s, state, rigid, axes, speed);
     telemetry.stability_control = stability.abs() > 0.0;
     for (i, wheel) in s.wheels.iter().enumerate() {
         let is_front = is_front(wheel.attachment.z);
@@ -92,8 +92,8 @@ pub(super) fn brakes(
         }
         // A yaw that is too far to the left is met by a brake on the right, and the other way round.
         let side = wheel.attachment.x.signum();
-        if stability * side > 0.0 && wheel.brake > 0.0 {
-            torque += stability.abs() * 0.5;
+        if stability * side > 0.0 && wheel.brake > 0.0 && is_front == at_front {
+            torque += stability.abs();
         }
         out.torque.push(torque);
         out.abs.push(holding_back);
@@ -101,19 +101,21 @@ pub(super) fn brakes(
     out
 }
 
-/// Brake torque that stability control wants, newton-metres; positive on the right side.
+/// Brake torque that stability control wants, newton-metres, positive on the right side; and whether at
+/// the front: who turns too much is held by an outer front wheel, who turns too little by an inner rear
+/// one, so that the axle that slides keeps its grip.
 fn stability(
     s: &Surroundings,
     state: &VehicleState,
     rigid: &Rigid,
     axes: &Axes,
     speed: f32,
-) -> f32 {
+) -> (f32, bool) {
     let Some(control) = s.assists.stability else {
-        return 0.0;
+        return (0.0, true);
     };
     if speed < 3.0 {
-        return 0.0;
+        return (0.0, true);
     }
     let (mut low, mut high) = (f32::MAX, f32::MIN);
     for wheel in &s.wheels {
@@ -128,8 +130,9 @@ fn stability(
     let error = wanted - turning;
     let beyond = error.abs() - control.tolerance;
     if beyond <= 0.0 {
-        return 0.0;
+        return (0.0, true);
     }
+    let too_much = turning * error < 0.0;
     // A brake on the right turns to the right.
-    beyond * control.strength * error.signum()
+    (beyond * control.strength * error.signum(), too_much)
 }

@@ -2,6 +2,7 @@
 
 mod support;
 
+mod assists;
 mod braking;
 mod cornering;
 mod determinism;
