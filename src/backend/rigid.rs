@@ -93,6 +93,12 @@ impl PhysicsView<'_> {
         rigid(body)
     }
 
+    /// Whether a dynamic body sleeps.
+    pub fn sleeps(&self, handle: &RapierRigidBodyHandle) -> bool {
+        let body = self.bodies.bodies.get(handle.0);
+        body.is_some_and(|b| b.is_dynamic() && b.is_sleeping())
+    }
+
     /// Share of the velocity at the end of a tick in how far the step moves a free body.
     pub fn end_share(&self) -> f32 {
         let substeps = self

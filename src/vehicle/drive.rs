@@ -79,6 +79,14 @@ pub(super) fn solve_vehicles(
                 report.clear();
                 return;
             }
+            if tick::rests(&view, handle, dt, intent, &state, report) {
+                report.clear();
+                report.asleep = true;
+                if !telemetry.asleep {
+                    telemetry.asleep = true;
+                }
+                return;
+            }
             let mut list = WheelList::new();
             for wheel in wheels.iter_many(tied.iter()) {
                 if list.try_push(wheel).is_err() {

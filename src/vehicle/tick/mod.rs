@@ -80,6 +80,30 @@ struct Axes {
     forward: Vec3,
 }
 
+/// Whether a vehicle sleeps and nothing asks it to wake: then there is nothing to solve.
+pub(super) fn rests(
+    view: &PhysicsView,
+    handle: &RapierRigidBodyHandle,
+    dt: f32,
+    intent: &VehicleIntent,
+    state: &VehicleState,
+    report: &mut VehicleReport,
+) -> bool {
+    let asked = intent.clean();
+    if asked != report.asked {
+        report.stay_awake = STAY_AWAKE;
+    }
+    if !view.sleeps(handle) {
+        return false;
+    }
+    let stirs = |ground| view.ground_stirs(ground, dt);
+    let moved = state.wheels.iter().any(|w| w.ground.is_some_and(stirs));
+    if report.changed || moved || asked.throttle > 0.0 {
+        report.stay_awake = STAY_AWAKE;
+    }
+    report.stay_awake <= 0.0
+}
+
 /// Solves one vehicle.
 pub(super) fn run(
     s: &Surroundings,
@@ -103,23 +127,6 @@ pub(super) fn run(
             .resize(s.wheels.len(), WheelDynamics::default());
     }
     let asked = intent.clean();
-    if asked != report.asked {
-        report.stay_awake = STAY_AWAKE;
-    }
-    if rigid.sleeping {
-        let moved = state.wheels.iter().any(|w| match w.ground {
-            Some(ground) => s.view.ground_stirs(ground, s.dt),
-            None => false,
-        });
-        if report.changed || moved || asked.throttle > 0.0 {
-            report.stay_awake = STAY_AWAKE;
-        }
-        if report.stay_awake <= 0.0 {
-            telemetry.asleep = true;
-            report.asleep = true;
-            return;
-        }
-    }
     report.stay_awake -= s.dt;
     report.asked = asked;
     report.changed = false;
