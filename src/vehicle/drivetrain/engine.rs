@@ -53,7 +53,7 @@ pub(crate) fn power(
     // Idle control: as much torque as brings the shaft to idle speed within a few hundredths of a
     // second, up to what the engine has.
     let idle = from_rpm(engine.idle);
-    if w < idle && !cut {
+    if !cut {
         let gain = engine.inertia / dt.max(0.03);
         let most = on_curve(&engine.torque, engine.idle.max(rpm));
         // What the closed throttle brakes with is made up for.
