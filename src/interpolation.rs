@@ -3,8 +3,8 @@
 //! Physics runs at the rate of [`Time<Fixed>`], frames are drawn at another. With
 //! [`EmbodyInterpolationPlugin`], which [`EmbodyPlugins`](crate::EmbodyPlugins) contains, the
 //! [`Transform`] of every [`Interpolated`] entity holds, outside the fixed schedules, a pose between
-//! those of the last two ticks; inside them it holds the exact pose. Characters are interpolated by
-//! themselves; add [`Interpolated`] to other bodies that are seen moving. To leave one character
+//! those of the last two ticks; inside them it holds the exact pose. Characters and vehicles are
+//! interpolated by themselves; add [`Interpolated`] to other bodies that are seen moving. To leave one
 //! out, give it [`NotInterpolated`]; to leave all out, as on a server, disable the plugin:
 //!
 //! ```
@@ -76,6 +76,11 @@ impl Plugin for EmbodyInterpolationPlugin {
                     entity.try_remove::<MovedBySolver>();
                 }
             });
+        }
+        #[cfg(feature = "vehicle")]
+        {
+            use crate::vehicle::Vehicle;
+            let _ = app.try_register_required_components::<Vehicle, Interpolated>();
         }
 
         app.add_systems(

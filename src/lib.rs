@@ -4,26 +4,43 @@
 #![warn(clippy::disallowed_methods)]
 
 mod backend;
-#[cfg(all(feature = "character", any(feature = "debug", feature = "egui")))]
+#[cfg(any(
+    all(feature = "character", any(feature = "debug", feature = "egui")),
+    all(feature = "vehicle", feature = "debug")
+))]
 pub mod debug;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+mod diagnostics;
 pub mod interpolation;
-#[cfg(feature = "character")]
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 mod math;
 mod schedule;
 mod teleport;
 
 #[cfg(feature = "character")]
 pub mod character;
+#[cfg(feature = "vehicle")]
+pub mod vehicle;
 
 use bevy::{app::PluginGroupBuilder, prelude::*};
 
 pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
-#[cfg(feature = "character")]
-pub use character::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
 #[cfg(all(feature = "character", feature = "debug"))]
 pub use debug::EmbodyDebugPlugin;
 #[cfg(all(feature = "character", feature = "egui"))]
 pub use debug::EmbodyInspectorPlugin;
+#[cfg(all(feature = "vehicle", feature = "debug"))]
+pub use debug::VehicleDebugPlugin;
+#[cfg(feature = "character")]
+pub use diagnostics::CharacterDiagnostics;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+pub use diagnostics::EmbodyDiagnosticsPlugin;
+#[cfg(feature = "vehicle")]
+pub use diagnostics::VehicleDiagnostics;
 pub use schedule::{EmbodyCorePlugin, EmbodySystems};
 pub use teleport::Teleported;
 
@@ -38,18 +55,29 @@ impl PluginGroup for EmbodyPlugins {
             .add(interpolation::EmbodyInterpolationPlugin);
         #[cfg(feature = "character")]
         let group = group.add(character::CharacterPlugin);
+        #[cfg(feature = "vehicle")]
+        let group = group.add(vehicle::VehiclePlugin);
         group
     }
 }
 
 /// What most games use.
 pub mod prelude {
+    #[cfg(feature = "character")]
+    #[doc(hidden)]
+    pub use crate::CharacterDiagnostics;
     #[cfg(all(feature = "character", feature = "debug"))]
     #[doc(hidden)]
     pub use crate::EmbodyDebugPlugin;
+    #[cfg(any(feature = "character", feature = "vehicle"))]
+    #[doc(hidden)]
+    pub use crate::EmbodyDiagnosticsPlugin;
     #[cfg(all(feature = "character", feature = "egui"))]
     #[doc(hidden)]
     pub use crate::EmbodyInspectorPlugin;
+    #[cfg(feature = "vehicle")]
+    #[doc(hidden)]
+    pub use crate::VehicleDiagnostics;
     #[cfg(feature = "character")]
     #[doc(hidden)]
     pub use crate::character::{
@@ -60,9 +88,18 @@ pub mod prelude {
         StanceChanged, StanceRefusal, StepAttempt, StepConfig, StepResult, Stepped, SurfaceGrip,
         SurfaceVelocity, UpDirection, WaterVolume,
     };
-    #[cfg(feature = "character")]
+    #[cfg(feature = "vehicle")]
     #[doc(hidden)]
-    pub use crate::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
+    pub use crate::vehicle::{
+        Aero, AntiLockBrakes, BottomedOut, Brakes, Clutch, Damper, Differential, DrivenAxle,
+        Drivetrain, ElectricMotor, Engine, EngineStalled, Gear, GearShifted, Gearbox, GroundPlane,
+        HillHold, LeanControl, PowerSource, ProbeInterval, RoadVelocity, Shifting, SlipEnded,
+        SlipPoint, SlipStarted, SpringRate, StabilityControl, SteerPoint, Steering,
+        SurfaceFriction, Suspension, Tire, TireModel, TorquePoint, TractionControl, Vehicle,
+        VehicleIntent, VehicleMass, VehiclePlugin, VehiclePreset, VehicleState, VehicleSystems,
+        VehicleTelemetry, Wheel, WheelContact, WheelDynamics, WheelLanded, WheelLeftGround,
+        WheelOf, WheelProbe, WheelState, Wheels,
+    };
     #[doc(hidden)]
     pub use crate::{
         EmbodyCorePlugin, EmbodyDiagnosis, EmbodyPlugins, EmbodyProblem, EmbodySystems, Teleported,

@@ -2,7 +2,7 @@
 
 /// The first of Rapier's systems in a tick.
 pub(crate) use bevy_rapier3d::plugin::systems::update_character_controls;
-#[cfg(feature = "character")]
+#[cfg(any(feature = "character", feature = "vehicle"))]
 pub(crate) use bevy_rapier3d::{
     plugin::context::RapierContextEntityLink,
     prelude::{RapierColliderHandle, RapierRigidBodyHandle},

@@ -6,11 +6,27 @@ mod hierarchy;
 pub(crate) mod setup;
 pub(crate) mod teleport;
 
-#[cfg(feature = "character")]
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 pub(crate) mod activity;
 #[cfg(feature = "character")]
 pub(crate) mod collider;
-#[cfg(feature = "character")]
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 pub(crate) mod neighbourhood;
-#[cfg(feature = "character")]
+#[cfg(feature = "vehicle")]
+pub(crate) mod probe;
+#[cfg(feature = "vehicle")]
+pub(crate) mod rigid;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 pub(crate) mod world;

@@ -55,9 +55,9 @@ impl PhysicsWorlds<'_, '_> {
 /// One physics world, to be read.
 #[derive(Clone, Copy)]
 pub(crate) struct PhysicsView<'a> {
-    simulation: &'a RapierContextSimulation,
-    colliders: &'a RapierContextColliders,
-    bodies: &'a RapierRigidBodySet,
+    pub(super) simulation: &'a RapierContextSimulation,
+    pub(super) colliders: &'a RapierContextColliders,
+    pub(super) bodies: &'a RapierRigidBodySet,
     pub gravity: Vec3,
     /// Whether the world is stepped.
     pub active: bool,
@@ -278,7 +278,7 @@ fn entity_of(user_data: u128) -> Entity {
 }
 
 /// The pose of a body at the end of the tick, or `None` when it does not move.
-fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
+pub(super) fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
     let end = match body.body_type() {
         RigidBodyType::Fixed => return None,
         RigidBodyType::KinematicPositionBased => *body.next_position(),
@@ -294,7 +294,7 @@ fn end_of_tick(body: &RigidBody, dt: f32) -> Option<Pose> {
 }
 
 /// A symmetric matrix in full.
-fn symmetric(m: &AngularInertia) -> Mat3 {
+pub(super) fn symmetric(m: &AngularInertia) -> Mat3 {
     Mat3::from_cols(
         Vec3::new(m.m11, m.m12, m.m13),
         Vec3::new(m.m12, m.m22, m.m23),
@@ -538,6 +538,56 @@ impl PhysicsWorldsMut<'_, '_> {
                 });
             }
         }
+    }
+
+    /// Remembers a body's force and torque before it was pushed, to give them back after the tick.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn note_forced(
+        &mut self,
+        link: Entity,
+        handle: RigidBodyHandle,
+        before: (Vec3, Vec3),
+    ) {
+        if let Ok((_, _, bodies)) = self.contexts.get(link)
+            && let Some(body) = bodies.bodies.get(handle)
+        {
+            let after = (body.user_force(), body.user_torque());
+            self.forced.0.push(Forced {
+                link,
+                body: handle,
+                before,
+                after,
+            });
+        }
+    }
+
+    /// A body, to be written.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn body_mut(
+        &mut self,
+        link: Entity,
+        handle: RigidBodyHandle,
+    ) -> Option<&mut RigidBody> {
+        let (_, _, bodies) = self.contexts.get_mut(link).ok()?;
+        bodies.into_inner().bodies.get_mut(handle)
+    }
+
+    /// Everything of one world.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn parts_mut(
+        &mut self,
+        link: Entity,
+    ) -> Option<(
+        &mut RapierContextSimulation,
+        &mut RapierContextColliders,
+        &mut RapierRigidBodySet,
+    )> {
+        let (simulation, colliders, bodies) = self.contexts.get_mut(link).ok()?;
+        Some((
+            simulation.into_inner(),
+            colliders.into_inner(),
+            bodies.into_inner(),
+        ))
     }
 
     /// Gives the bodies back the forces that they had before the last tick's pushes, unless the game

@@ -2,9 +2,8 @@
 
 use bevy::{platform::time::Instant, prelude::*};
 
-use super::{
-    diagnostics::CharacterDiagnostics, output::CharacterContacts, report::CharacterReport,
-};
+use super::{output::CharacterContacts, report::CharacterReport};
+use crate::diagnostics::CharacterDiagnostics;
 
 /// When this tick's work began.
 #[derive(Resource, Default)]

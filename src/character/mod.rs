@@ -3,7 +3,6 @@
 mod body;
 mod checks;
 mod config;
-mod diagnostics;
 mod drive;
 mod events;
 mod guard;
@@ -32,7 +31,6 @@ use crate::{
 };
 
 pub use config::{Character, CharacterShape, LeaveVelocity, SlopeSpeed, StepConfig};
-pub use diagnostics::{CharacterDiagnostics, EmbodyDiagnosticsPlugin};
 pub use events::{Crushed, Hit, Landed, LeftGround, StanceChanged, Stepped};
 pub use intent::{CharacterIntent, Stance};
 pub use motor::{CharacterMotor, CustomMotor};

@@ -1,19 +1,25 @@
 //! Seeing and tuning: gizmos (feature `debug`), the egui panel and its plots (feature `egui`).
 
+#[cfg(feature = "character")]
 mod explain;
-#[cfg(feature = "debug")]
+#[cfg(all(feature = "character", feature = "debug"))]
 mod gizmos;
-#[cfg(feature = "debug")]
+#[cfg(all(feature = "character", feature = "debug"))]
 mod hull;
-#[cfg(feature = "egui")]
+#[cfg(all(feature = "character", feature = "egui"))]
 mod inspector;
-#[cfg(feature = "debug")]
+#[cfg(all(feature = "character", feature = "debug"))]
 mod trail;
+#[cfg(all(feature = "vehicle", feature = "debug"))]
+mod wheels;
 
+#[cfg(feature = "character")]
 pub use explain::Explain;
-#[cfg(feature = "debug")]
+#[cfg(all(feature = "character", feature = "debug"))]
 pub use gizmos::{CharacterGizmos, EmbodyDebugPlugin};
-#[cfg(feature = "egui")]
+#[cfg(all(feature = "character", feature = "egui"))]
 pub use inspector::{EmbodyInspectorPlugin, InspectorPanel, TuningEdits};
-#[cfg(feature = "debug")]
+#[cfg(all(feature = "character", feature = "debug"))]
 pub use trail::{MarkedStep, StepTrail};
+#[cfg(all(feature = "vehicle", feature = "debug"))]
+pub use wheels::{VehicleDebugPlugin, VehicleGizmos};

@@ -3,3 +3,4 @@
 mod character;
 mod debug;
 mod foundation;
+mod vehicle;

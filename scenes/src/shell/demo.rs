@@ -1,5 +1,5 @@
 //! Runs a small example without a window: holds its keys down for some seconds and tells where the
-//! characters went.
+//! characters and vehicles went.
 
 use bevy::{
     app::PluginGroupBuilder,
@@ -67,6 +67,7 @@ fn report(
     mut starts: Local<Vec<(Entity, Vec3)>>,
     mut highest: Local<f32>,
     characters: Query<(Entity, &Transform, &CharacterState), With<Character>>,
+    vehicles: Query<(Entity, &Transform, &VehicleTelemetry)>,
     time: Res<Time<Fixed>>,
     mut exit: MessageWriter<AppExit>,
 ) {
@@ -102,6 +103,20 @@ fn report(
             state.ground.state,
             state.velocity.length(),
             *highest,
+        );
+    }
+    for (entity, transform, telemetry) in &vehicles {
+        let end = transform.translation;
+        println!(
+            "vehicle {entity} drove to ({:.2}, {:.2}, {:.2}) in {:.1} s, {:.2} m/s in gear {} at {:.0} rpm, {} wheels on the ground",
+            end.x,
+            end.y,
+            end.z,
+            time.elapsed_secs(),
+            telemetry.speed,
+            telemetry.gear,
+            telemetry.rpm,
+            telemetry.grounded,
         );
     }
     exit.write(AppExit::Success);

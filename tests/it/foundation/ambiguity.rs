@@ -16,13 +16,17 @@ fn ambiguities<M>(label: impl ScheduleLabel, plugins: impl Plugins<M>) -> Vec<St
     sim.app.world_mut().schedule_scope(label, |_, schedule| {
         let graph = schedule.graph();
         let ours: Vec<SystemKey> = [
-            EmbodySystems::Prepare,
-            EmbodySystems::Drive,
-            EmbodySystems::React,
-            EmbodySystems::Present,
+            EmbodySystems::Prepare.intern(),
+            EmbodySystems::Drive.intern(),
+            EmbodySystems::React.intern(),
+            EmbodySystems::Present.intern(),
+            VehicleSystems::Prepare.intern(),
+            VehicleSystems::Drive.intern(),
+            VehicleSystems::React.intern(),
+            VehicleSystems::Present.intern(),
         ]
         .into_iter()
-        .filter_map(|set| graph.systems_in_set(set.intern()).ok())
+        .filter_map(|set| graph.systems_in_set(set).ok())
         .flatten()
         .copied()
         .collect();

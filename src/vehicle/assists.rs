@@ -1,0 +1,122 @@
+//! Help for the driver: components that change what the driver asks, never the physics. Leave one out
+//! and it costs nothing.
+
+use bevy::prelude::*;
+
+/// Anti-lock brakes: holds each braked wheel at a slip ratio instead of letting it lock.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct AntiLockBrakes {
+    /// Slip ratio that is held, `0..1`, above 0. Near the peak of the tyre's curve it stops shortest;
+    /// at 1 wheels lock.
+    pub slip: f32,
+    /// Speed below which wheels may lock, metres per second, at least 0.
+    pub least_speed: f32,
+}
+
+impl Default for AntiLockBrakes {
+    fn default() -> Self {
+        Self {
+            slip: 0.12,
+            least_speed: 2.0,
+        }
+    }
+}
+
+/// Traction control: takes throttle away when driven wheels spin.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct TractionControl {
+    /// Slip ratio that is held, above 0. Small is tame and slow, large lets the wheels spin.
+    pub slip: f32,
+}
+
+impl Default for TractionControl {
+    fn default() -> Self {
+        Self { slip: 0.12 }
+    }
+}
+
+/// Stability control: brakes single wheels when the vehicle turns more or less than it is steered.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct StabilityControl {
+    /// Deviation of the yaw rate that is left alone, radians per second, at least 0.
+    pub tolerance: f32,
+    /// Brake torque for each radian per second beyond, newton-metre-seconds, at least 0.
+    pub strength: f32,
+}
+
+impl Default for StabilityControl {
+    fn default() -> Self {
+        Self {
+            tolerance: 0.08,
+            strength: 15_000.0,
+        }
+    }
+}
+
+/// Hill hold: keeps the brakes for a moment after the pedal is released on a slope.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct HillHold {
+    /// For how long, seconds, at least 0; throttle ends it at once.
+    pub time: f32,
+}
+
+impl Default for HillHold {
+    fn default() -> Self {
+        Self { time: 2.0 }
+    }
+}
+
+/// Keeps a two-wheeler upright and leans it into its turns: a torque about its long axis, while a
+/// wheel is on the ground.
+#[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct LeanControl {
+    /// Natural frequency of the lean, hertz, above 0.
+    pub frequency: f32,
+    /// Damping ratio, at least 0.
+    pub damping: f32,
+    /// Greatest lean, radians, `0..π/2`.
+    pub max_lean: f32,
+}
+
+impl Default for LeanControl {
+    fn default() -> Self {
+        Self {
+            frequency: 2.0,
+            damping: 1.0,
+            max_lean: 45f32.to_radians(),
+        }
+    }
+}
+
+impl AntiLockBrakes {
+    /// The part of the brake to leave on, from the last one, after a tick of `dt` at a slip ratio.
+    pub(crate) fn part(&self, last: f32, slip: f32, speed: f32, dt: f32) -> f32 {
+        if speed < self.least_speed {
+            return 1.0;
+        }
+        let excess = (-slip - self.slip) / self.slip;
+        // Off within about 30 ms at twice the slip, on again within about 150 ms.
+        let rate = if excess > 0.0 { 30.0 } else { 7.0 };
+        (last - (excess.clamp(-1.0, 2.0) * rate * dt).clamp(-0.5, 0.7)).clamp(0.02, 1.0)
+    }
+}
+
+impl TractionControl {
+    /// The part of the throttle to leave, from the last one, after a tick of `dt` at the greatest slip
+    /// of a driven wheel.
+    pub(crate) fn part(&self, last: f32, slip: f32, dt: f32) -> f32 {
+        let excess = (slip - self.slip) / self.slip;
+        let rate = if excess > 0.0 { 15.0 } else { 4.0 };
+        (last - (excess.clamp(-1.0, 2.0) * rate * dt).clamp(-0.5, 0.5)).clamp(0.02, 1.0)
+    }
+}

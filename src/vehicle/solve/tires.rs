@@ -1,0 +1,136 @@
+//! Tyre impulses, wheel by wheel, each implicit in its own slip.
+//!
+//! A wheel's slip velocity would be `s` without its tyre; an impulse `λ` takes `G λ` off it. The
+//! carcass, a spring of stiffness `k` stretched by `u`, takes up the rest of the slip that the patch
+//! does not: `λ = k dt (u + dt (s − G λ − s_p))`. The patch slips by `s_p` under the force `λ / dt`. With
+//! the secant `c` of its curve, `s_p = c λ / dt`, and
+//!
+//! `λ = (u / dt + s) / (1 / (k dt²) + G + c / dt)`,
+//!
+//! one division for any stiffness. At a standstill `c` is 0 below the friction limit: the carcass
+//! alone holds. The combined slip that `c` belongs to is found by one Newton step in each sweep.
+
+use bevy::math::Vec2;
+
+use super::{Contact, Problem};
+use crate::vehicle::tire::Patch;
+
+/// Applies what the tyres begin with.
+pub(super) fn start(problem: &mut Problem) {
+    for i in 0..problem.contacts.len() {
+        let contact = &problem.contacts[i];
+        let (chassis, grounds) = (&problem.chassis, &*problem.grounds);
+        let own = |axis| contact.mobility(axis, contact, axis, chassis, grounds);
+        let mobility = Vec2::new(own(contact.along), own(contact.across));
+        let contact = &mut problem.contacts[i];
+        contact.mobility = mobility;
+        let impulse = contact.normal * contact.push
+            + contact.along * contact.grip.x
+            + contact.across * contact.grip.y;
+        contact.push_both(impulse, &mut problem.chassis, problem.grounds);
+        let turned = contact.grip.x * contact.radius;
+        problem.spin.preload(contact.wheel, f64::from(turned));
+    }
+}
+
+/// One step for every wheel; returns the greatest change in parts of the friction limit.
+pub(super) fn sweep(problem: &mut Problem) -> f32 {
+    let mut change = 0.0f32;
+    let dt = problem.dt;
+    for i in 0..problem.contacts.len() {
+        let contact = &problem.contacts[i];
+        let (wheel, radius) = (contact.wheel, contact.radius);
+        let before = contact.grip;
+        let load = contact.push / dt;
+        let mut grip = Vec2::ZERO;
+        if load > 0.0 {
+            let patch = match contact.patch {
+                Some(patch) if (patch.load - load).abs() <= 1.0e-5 * load => patch,
+                _ => Patch::new(contact.tire, load, contact.surface),
+            };
+            let step = step(problem, i, &patch);
+            let contact = &mut problem.contacts[i];
+            contact.patch = Some(patch);
+            contact.combined = step.next;
+            let scale = dt * patch.limit.max_element() + 1.0e-6;
+            let moved = (step.grip - before).abs().max_element();
+            change = change.max(moved.max(step.open) / scale);
+            grip = step.grip;
+        } else {
+            problem.contacts[i].combined = 0.0;
+        }
+        let delta = grip - before;
+        if delta == Vec2::ZERO || !delta.is_finite() {
+            continue;
+        }
+        let contact = &mut problem.contacts[i];
+        contact.grip = grip;
+        let impulse = contact.along * delta.x + contact.across * delta.y;
+        contact.push_both(impulse, &mut problem.chassis, problem.grounds);
+        problem.spin.push(wheel, f64::from(delta.x * radius));
+    }
+    change
+}
+
+/// What one step finds.
+struct Step {
+    /// Newton-seconds.
+    grip: Vec2,
+    /// Combined slip velocity to go on with, metres per second.
+    next: f32,
+    /// By how much that will still change the impulse, newton-seconds.
+    open: f32,
+}
+
+fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
+    let dt = problem.dt;
+    let contact: &Contact = &problem.contacts[i];
+    let velocity = contact.velocity(&problem.chassis, problem.grounds);
+    let spin = problem.spin.w[contact.wheel] as f32 * contact.radius;
+    let slip = Vec2::new(
+        spin - velocity.dot(contact.along),
+        contact.camber_slip * contact.speed - velocity.dot(contact.across),
+    ) + contact.turn_slip;
+    let turned = problem.spin.mobility(contact.wheel) as f32 * contact.radius * contact.radius;
+    let mobility = contact.mobility + Vec2::new(turned, 0.0);
+    // What the slip would be without this tyre's impulse, the stretch of the carcass included.
+    let drive = contact.bristle / dt + slip + mobility * contact.grip;
+    let stiff = mobility + (patch.carcass * (dt * dt)).recip();
+
+    let mut combined = contact.combined;
+    let mut secant = patch.secant(combined, contact.speed);
+    let mut grip = drive / (stiff + secant.compliance / dt);
+    let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
+    if (grip / limit).length() > 1.0 + 1.0e-4 {
+        // A full slide: what the carcass alone would hold beyond the limit is slip. From far below,
+        // Newton's steps would be small.
+        let held = (drive / stiff / limit).length().max(1.0);
+        let slide = patch.combined(drive * (1.0 - 1.0 / held), contact.speed);
+        if combined < 0.5 * slide {
+            combined = slide;
+            secant = patch.secant(combined, contact.speed);
+            grip = drive / (stiff + secant.compliance / dt);
+        }
+    }
+    // One step of Newton's towards the combined slip that belongs to this impulse.
+    let mut next = combined;
+    let mut open = 0.0;
+    let weight = grip.length_squared();
+    if weight > 0.0 {
+        let reached = patch.combined(grip * secant.compliance / dt, contact.speed);
+        let stiffness = (grip * grip).dot(stiff) / weight * dt;
+        let compliance = (grip * grip).dot(secant.compliance) / weight;
+        if compliance > 0.0 {
+            let slope = (1.0 + stiffness * secant.slope).max(0.3);
+            next = combined + (reached - combined) * (1.0 + stiffness / compliance) / slope;
+            next = next.clamp(0.0, patch.combined(drive, contact.speed));
+            open = (next - combined).abs() * secant.slope.abs() * dt;
+        }
+    }
+    // A slip that has not converged may leave the ellipse by a little.
+    let excess = (grip / limit).length();
+    if excess > 1.0 {
+        grip /= excess;
+    }
+    Step { grip, next, open }
+}

@@ -1,0 +1,199 @@
+//! From touched ground to the contacts of the solve.
+
+use arrayvec::ArrayVec;
+use bevy::{math::ops, prelude::*};
+
+use super::{Found, Surroundings};
+use crate::{
+    backend::rigid::{GroundMotion, Rigid},
+    vehicle::{
+        config::Vehicle,
+        report::VehicleReport,
+        solve::{Contact, GroundBody, MOST_WHEELS},
+        state::VehicleState,
+    },
+};
+
+/// Below this speed against the ground a carcass remembers what others did to it, metres per second.
+const SLOW: f32 = 2.0;
+
+/// A body under a wheel counts as at least the vehicle's mass over this: what is much lighter than a
+/// wheel's load can only carry it because something else carries it in turn.
+const LIGHTEST: f32 = 8.0;
+
+pub(super) fn build<'a>(
+    s: &Surroundings<'a, '_, '_>,
+    config: &Vehicle,
+    state: &VehicleState,
+    report: &mut VehicleReport,
+    rigid: &Rigid,
+    found: &[Found],
+    grounds: &mut ArrayVec<GroundBody, MOST_WHEELS>,
+    contacts: &mut ArrayVec<Contact<'a>, MOST_WHEELS>,
+) {
+    let own_mass = rigid.mass;
+    for (i, f) in found.iter().enumerate() {
+        let Some(touch) = f.contact else { continue };
+        let wheel = s.wheels[i];
+        let last = &state.wheels[i];
+        let Some(motion) = s.view.ground_motion(touch.entity, s.dt) else {
+            continue;
+        };
+        let (friction, road) = s.surfaces.get(touch.entity).unwrap_or_default();
+        let friction = friction.copied().unwrap_or_default();
+        let road = road.zip(s.view.collider_pose(touch.entity));
+        let ground_at = |point: Vec3| {
+            let mut velocity = motion.velocity_at(point);
+            if let Some((road, (origin, rotation))) = road {
+                velocity +=
+                    rotation * road.linear + (rotation * road.angular).cross(point - origin);
+            }
+            velocity
+        };
+        let arm = touch.point - rigid.center;
+        let own_velocity = rigid.velocity + rigid.spin.cross(arm);
+        let ground_start = ground_at(touch.point);
+        let ground_end = ground_at(touch.point + own_velocity * s.dt);
+        // The step moves a body a little more by its last velocity than by its first: on a circle
+        // that would lead inward.
+        let ground_drift = (ground_start - ground_end) * (s.view.end_share() - 0.5);
+        if !ground_start.is_finite() || !ground_end.is_finite() {
+            continue;
+        }
+        let same_ground = last.ground == Some(touch.entity);
+        let ground = match motion {
+            GroundMotion::Free { body, rigid } if !rigid.sleeping => {
+                let index = grounds.iter().position(|g| g.entity == body);
+                let index = index.unwrap_or_else(|| {
+                    let heavier = (rigid.mass * LIGHTEST / own_mass).min(1.0);
+                    grounds.push(GroundBody {
+                        entity: body,
+                        velocity: Vec3::ZERO,
+                        spin: Vec3::ZERO,
+                        inverse_mass: heavier / rigid.mass,
+                        inverse_inertia: rigid.inverse_inertia * heavier,
+                    });
+                    grounds.len() - 1
+                });
+                let arm = touch.point - rigid.center;
+                if same_ground {
+                    grounds[index].push(last.ground_force * -s.dt, arm);
+                }
+                Some((index, arm))
+            }
+            _ => None,
+        };
+        report.ground_bodies[i] = match motion {
+            GroundMotion::Free { body, .. } => Some(body),
+            _ => None,
+        };
+        report.ground_velocities[i] = ground_start;
+        let Some(along) = touch.normal.cross(f.axle).try_normalize() else {
+            continue;
+        };
+        let across = along.cross(touch.normal);
+        let velocity = own_velocity - ground_start;
+        let flat = Vec2::new(velocity.dot(along), velocity.dot(across));
+        // Forces act as the wheel points in the middle of the tick; the velocities that they lead to
+        // are those of its end, so slip is measured as the wheel points then.
+        let half = (0.5 * s.dt * rigid.spin.dot(touch.normal)).clamp(-0.5, 0.5);
+        let (sin, cos) = ops::sin_cos(half);
+        let turned = |a: Vec3, b: Vec3| (a * cos - b * sin, b * cos + a * sin);
+        let (along, across) = turned(along, across);
+        let (end_along, end_across) = turned(along, across);
+        let turn_slip = Vec2::new(
+            velocity.dot(along - end_along),
+            velocity.dot(across - end_across),
+        );
+        let speed = flat.length().max((last.spin * wheel.radius).abs());
+        let mut bristle = if same_ground {
+            last.bristle
+        } else {
+            Vec2::ZERO
+        };
+        if same_ground && speed < SLOW {
+            bristle -= (flat - last.expected) * s.dt;
+        }
+        // The last tick's impulse is where the solve begins.
+        let before = if same_ground {
+            last.ground_force * -s.dt
+        } else {
+            Vec3::ZERO
+        };
+        let lean = f.axle.dot(touch.normal).clamp(-1.0, 1.0);
+        contacts.push(Contact {
+            wheel: i,
+            arm,
+            normal: touch.normal,
+            along,
+            across,
+            cosine: touch.cosine,
+            ground_start,
+            ground_end: ground_end + ground_drift,
+            ground_drift,
+            ground,
+            law: f.law,
+            compression: f.compression,
+            bar: None,
+            lone_bar: 0.0,
+            tire: &wheel.tire,
+            surface: friction.friction.max(0.0),
+            radius: wheel.radius,
+            bristle,
+            turn_slip,
+            // Leaning to the right pushes to the right.
+            camber_slip: -wheel.tire.camber_stiffness * ops::asin(lean),
+            mobility: Vec2::ZERO,
+            push: before.dot(touch.normal).max(0.0),
+            grip: Vec2::new(before.dot(along), before.dot(across)),
+            combined: if same_ground { last.slip } else { 0.0 },
+            speed,
+            patch: None,
+        });
+    }
+    join_bars(s, config, found, contacts);
+}
+
+/// Ties the two sides of each axle by its anti-roll bar.
+fn join_bars(
+    s: &Surroundings,
+    config: &Vehicle,
+    found: &[Found],
+    contacts: &mut ArrayVec<Contact, MOST_WHEELS>,
+) {
+    for (axle, bar) in config.anti_roll.iter().enumerate() {
+        if !(*bar > 0.0) {
+            continue;
+        }
+        // The outermost wheel of each side.
+        let mut ends: [Option<usize>; 2] = [None, None];
+        for (i, wheel) in s.wheels.iter().enumerate() {
+            if usize::from(wheel.axle) == axle {
+                let side = usize::from(wheel.attachment.x > 0.0);
+                let farther = |j: usize| s.wheels[j].attachment.x.abs() < wheel.attachment.x.abs();
+                if ends[side].is_none_or(farther) {
+                    ends[side] = Some(i);
+                }
+            }
+        }
+        let [Some(left), Some(right)] = ends else {
+            continue;
+        };
+        let at = |wheel| contacts.iter().position(|c| c.wheel == wheel);
+        match (at(left), at(right)) {
+            (Some(l), Some(r)) => {
+                contacts[l].bar = Some((r, *bar));
+                contacts[r].bar = Some((l, *bar));
+            }
+            // A hanging wheel gives way to the bar until its own spring holds it.
+            (Some(one), None) => contacts[one].lone_bar = in_series(*bar, &found[right]),
+            (None, Some(one)) => contacts[one].lone_bar = in_series(*bar, &found[left]),
+            (None, None) => {}
+        }
+    }
+}
+
+fn in_series(bar: f32, hanging: &Found) -> f32 {
+    let k = hanging.law.stiffness;
+    bar * k / (bar + k).max(1.0e-6)
+}
