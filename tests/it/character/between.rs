@@ -209,7 +209,7 @@ fn a_slope_limit_set_lower_acts_on_who_stands() {
         sim.seconds(1.0);
         let from = sim.position(who);
         edit::<Character>(&mut sim, who, |config| {
-            config.max_slope = 20f32.to_radians()
+            config.max_slope = 20f32.to_radians();
         });
         sim.seconds(1.0);
         let slid = sim.position(who).distance(from);
