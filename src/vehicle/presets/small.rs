@@ -70,7 +70,7 @@ impl VehiclePreset {
     }
 
     /// A motorcycle: 270 kg with its rider. Spawn it with
-    /// [`LeanControl`](super::LeanControl), or it falls over.
+    /// [`LeanControl`](crate::vehicle::LeanControl), or it falls over.
     pub fn motorcycle() -> Self {
         let body = Body {
             mass: 270.0,
