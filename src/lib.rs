@@ -20,6 +20,8 @@ pub mod interpolation;
 mod math;
 mod schedule;
 mod teleport;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+mod validate;
 
 #[cfg(feature = "character")]
 pub mod character;

@@ -19,6 +19,18 @@ pub(crate) mod collider;
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
+pub(crate) mod forces;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
+pub(crate) mod motion;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 pub(crate) mod neighbourhood;
 #[cfg(feature = "vehicle")]
 pub(crate) mod probe;
@@ -29,4 +41,12 @@ pub(crate) mod rigid;
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
+mod search_tree;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg_attr(
+    not(feature = "character"),
+    expect(dead_code, reason = "what only characters ask")
+)]
 pub(crate) mod world;
+#[cfg(any(feature = "character", feature = "vehicle"))]
+pub(crate) mod world_mut;

@@ -7,7 +7,11 @@ use bevy_rapier3d::{
     rapier::dynamics::RigidBody,
 };
 
-use super::world::{PhysicsView, PhysicsWorldsMut, end_of_tick, symmetric};
+use super::{
+    motion::{end_of_tick, symmetric},
+    world::PhysicsView,
+    world_mut::PhysicsWorldsMut,
+};
 
 /// A dynamic body before the step.
 #[derive(Clone, Copy, Debug)]

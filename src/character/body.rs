@@ -10,9 +10,12 @@ use super::{
     output::{CharacterContacts, CharacterSnapshot},
     report::CharacterReport,
     state::CharacterState,
-    validate::{self, Problem},
+    validate,
 };
-use crate::backend::{collider, neighbourhood::Mover};
+use crate::{
+    backend::{collider, neighbourhood::Mover},
+    validate::Problem,
+};
 
 /// How much smaller than the character its collider is, metres: dynamic bodies are pushed by the
 /// solver at the outline, and meet the unyielding collider only when they are pressed in deeper.
@@ -262,7 +265,6 @@ fn shrunk(config: &Character, height: f32) -> Option<Collider> {
 
 /// The one warning that a refused value gets.
 pub(super) fn warn_bad(entity: Entity, field: &str, value: &str, need: &str) {
-    tracing::warn!(
-        "{entity}: {field} is {value}, but needs {need}; the character is left where it is"
-    );
+    let then = "the character is left where it is";
+    crate::validate::warn_bad(entity, field, value, need, then);
 }

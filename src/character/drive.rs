@@ -25,7 +25,8 @@ use super::{
 use crate::backend::{
     activity::Activity,
     handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
-    world::{PhysicsWorlds, PhysicsWorldsMut},
+    world::PhysicsWorlds,
+    world_mut::PhysicsWorldsMut,
 };
 
 /// What a change to a collider that was made since the last tick looks like.

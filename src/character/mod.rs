@@ -25,7 +25,7 @@ use crate::{
     backend::{
         activity::Activity,
         checks::{EmbodyDiagnosis, EmbodyProblem},
-        world::ForcedBodies,
+        forces::ForcedBodies,
     },
     schedule::{EmbodyCorePlugin, EmbodySystems},
 };

@@ -14,7 +14,7 @@ use super::{
     state::{Anchor, CharacterState},
     surface::SurfaceVelocity,
 };
-use crate::backend::world::{Carrier, WorldPose};
+use crate::backend::{motion::WorldPose, world::Carrier};
 
 /// Acceleration that friction gives to a rider at most, metres per second squared.
 const GRIP: f32 = 10.0;

@@ -4,7 +4,7 @@
 use bevy::prelude::*;
 
 use super::{intent::Stance, state::GroundState};
-use crate::backend::world::WorldPose;
+use crate::backend::motion::WorldPose;
 
 /// The decisions of one tick.
 #[derive(Component, Default)]

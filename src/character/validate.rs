@@ -4,45 +4,11 @@ use super::{
     config::{Character, CharacterShape},
     motor::CharacterMotor,
 };
-
-/// A refused value.
-#[derive(Debug, PartialEq)]
-pub(super) struct Problem {
-    pub field: &'static str,
-    pub value: String,
-    pub need: &'static str,
-}
-
-struct Check(Option<Problem>);
-
-impl Check {
-    fn that(&mut self, ok: bool, field: &'static str, value: f32, need: &'static str) {
-        if !ok && self.0.is_none() {
-            self.0 = Some(Problem {
-                field,
-                value: value.to_string(),
-                need,
-            });
-        }
-    }
-
-    fn positive(&mut self, field: &'static str, value: f32) {
-        let ok = value > 0.0 && value.is_finite();
-        self.that(ok, field, value, "a finite number above 0");
-    }
-
-    fn not_negative(&mut self, field: &'static str, value: f32) {
-        self.that(value >= 0.0, field, value, "a number of at least 0");
-    }
-
-    fn finite(&mut self, field: &'static str, value: f32) {
-        self.that(value.is_finite(), field, value, "a finite number");
-    }
-}
+use crate::validate::{Check, Problem};
 
 /// The first value of a config that is out of its range.
 pub(super) fn character(config: &Character) -> Option<Problem> {
-    let mut check = Check(None);
+    let mut check = Check::default();
     match &config.shape {
         CharacterShape::Capsule { radius, height } => {
             check.positive("Character::shape.radius", *radius);
@@ -76,44 +42,20 @@ pub(super) fn character(config: &Character) -> Option<Problem> {
     let ok = (0.0..=core::f32::consts::FRAC_PI_2 + 1.0e-4).contains(&slope);
     check.that(ok, "Character::max_slope", slope, "0 to π/2");
     if let Some(step) = &config.step {
-        let ok = step.height >= 0.0 && step.height.is_finite();
-        check.that(
-            ok,
-            "Character::step.height",
-            step.height,
-            "a finite number of at least 0",
-        );
-        let ok = step.min_width >= 0.0 && step.min_width.is_finite();
-        check.that(
-            ok,
-            "Character::step.min_width",
-            step.min_width,
-            "a finite number of at least 0",
-        );
+        check.not_negative("Character::step.height", step.height);
+        check.not_negative("Character::step.min_width", step.min_width);
     }
-    let ok = config.ground_snap >= 0.0 && config.ground_snap.is_finite();
-    check.that(
-        ok,
-        "Character::ground_snap",
-        config.ground_snap,
-        "a finite number of at least 0",
-    );
-    check.not_negative("Character::recovery_speed", config.recovery_speed);
+    check.not_negative("Character::ground_snap", config.ground_snap);
+    check.limit("Character::recovery_speed", config.recovery_speed);
     check.positive("Character::mass", config.mass);
-    check.not_negative("Character::push_strength", config.push_strength);
-    let ok = config.step_smoothing >= 0.0 && config.step_smoothing.is_finite();
-    check.that(
-        ok,
-        "Character::step_smoothing",
-        config.step_smoothing,
-        "a finite number of at least 0",
-    );
+    check.limit("Character::push_strength", config.push_strength);
+    check.not_negative("Character::step_smoothing", config.step_smoothing);
     check.0
 }
 
 /// The first value of a motor that is out of its range.
 pub(super) fn motor(motor: &CharacterMotor) -> Option<Problem> {
-    let mut check = Check(None);
+    let mut check = Check::default();
     for (field, value) in [
         ("CharacterMotor::walk_speed", motor.walk_speed),
         ("CharacterMotor::sprint_speed", motor.sprint_speed),
@@ -125,8 +67,7 @@ pub(super) fn motor(motor: &CharacterMotor) -> Option<Problem> {
         ("CharacterMotor::swim_speed", motor.swim_speed),
         ("CharacterMotor::climb_speed", motor.climb_speed),
     ] {
-        let ok = value >= 0.0 && value.is_finite();
-        check.that(ok, field, value, "a finite number of at least 0");
+        check.not_negative(field, value);
     }
     for (field, value) in [
         ("CharacterMotor::acceleration", motor.acceleration),
@@ -137,7 +78,7 @@ pub(super) fn motor(motor: &CharacterMotor) -> Option<Problem> {
         ("CharacterMotor::max_fall_speed", motor.max_fall_speed),
         ("CharacterMotor::turn_rate", motor.turn_rate.unwrap_or(0.0)),
     ] {
-        check.not_negative(field, value);
+        check.limit(field, value);
     }
     check.finite("CharacterMotor::gravity_scale", motor.gravity_scale);
     check.finite("CharacterMotor::gravity", motor.gravity.unwrap_or(0.0));

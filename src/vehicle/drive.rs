@@ -17,7 +17,8 @@ use super::{
 };
 use crate::backend::{
     handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
-    world::{PhysicsWorlds, PhysicsWorldsMut},
+    world::PhysicsWorlds,
+    world_mut::PhysicsWorldsMut,
 };
 
 /// Lets wheels find colliders that were spawned since the last step.

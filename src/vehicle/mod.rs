@@ -43,7 +43,7 @@ use bevy_rapier3d::prelude::PhysicsSet;
 #[cfg(doc)]
 use crate::schedule::EmbodyCorePlugin;
 use crate::{
-    backend::world::ForcedBodies, diagnostics::VehicleDiagnostics, schedule::EmbodySystems,
+    backend::forces::ForcedBodies, diagnostics::VehicleDiagnostics, schedule::EmbodySystems,
 };
 
 pub use aero::Aero;

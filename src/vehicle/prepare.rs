@@ -6,9 +6,10 @@ use bevy_rapier3d::prelude::{AdditionalMassProperties, ColliderMassProperties, M
 use super::{
     config::{Vehicle, VehicleMass},
     report::VehicleReport,
-    validate::{self, Problem},
+    validate,
     wheel::{Wheel, WheelOf, Wheels},
 };
+use crate::validate::{Problem, warn_bad};
 
 /// Checks what is new or changed.
 pub(super) fn check_configs(
@@ -45,21 +46,20 @@ pub(super) fn check_configs(
             // A wheel of the relationship without a config would shift all that follow.
             let found = match wheels.get(wheel) {
                 Ok(config) => validate::wheel(config),
-                Err(_) => Some(Problem::absent("Wheel")),
+                Err(_) => Some(validate::absent("Wheel")),
             };
             problems.extend(found.map(|p| (wheel, p)));
         }
         if count > Wheel::MOST {
-            problems.push((entity, Problem::too_many(count)));
+            problems.push((entity, validate::too_many(count)));
         }
         if count == 0 {
             report.valid = false;
         }
         if let Some((who, Problem { field, value, need })) = problems.first() {
             report.valid = false;
-            tracing::warn!(
-                "{who}: {field} is {value}, but needs {need}; the vehicle has no wheels until then"
-            );
+            let then = "the vehicle has no wheels until then";
+            warn_bad(*who, field, value, need, then);
         }
     }
 }

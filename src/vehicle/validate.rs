@@ -1,7 +1,5 @@
 //! Which values a vehicle cannot work with.
 
-use bevy::prelude::*;
-
 use super::{
     config::{Vehicle, VehicleMass},
     drivetrain::{Differential, Drivetrain, PowerSource, Shifting},
@@ -9,67 +7,23 @@ use super::{
     tire::TireModel,
     wheel::{Wheel, WheelProbe},
 };
+use crate::validate::{Check, Problem};
 
-/// A refused value.
-#[derive(Debug, PartialEq)]
-pub(super) struct Problem {
-    pub field: &'static str,
-    pub value: String,
-    pub need: &'static str,
-}
-
-impl Problem {
-    pub fn absent(field: &'static str) -> Self {
-        Self {
-            field,
-            value: "missing".into(),
-            need: "to be on every entity with a WheelOf",
-        }
-    }
-
-    pub fn too_many(count: usize) -> Self {
-        Self {
-            field: "Wheels",
-            value: count.to_string(),
-            need: "at most 16",
-        }
+/// A wheel that lacks a component.
+pub(super) fn absent(field: &'static str) -> Problem {
+    Problem {
+        field,
+        value: "missing".into(),
+        need: "to be on every entity with a WheelOf",
     }
 }
 
-#[derive(Default)]
-struct Check(Option<Problem>);
-
-impl Check {
-    fn that(&mut self, ok: bool, field: &'static str, value: f32, need: &'static str) {
-        if !ok && self.0.is_none() {
-            self.0 = Some(Problem {
-                field,
-                value: value.to_string(),
-                need,
-            });
-        }
-    }
-
-    fn positive(&mut self, field: &'static str, value: f32) {
-        let ok = value > 0.0 && value.is_finite();
-        self.that(ok, field, value, "a finite number above 0");
-    }
-
-    fn not_negative(&mut self, field: &'static str, value: f32) {
-        let ok = value >= 0.0 && value.is_finite();
-        self.that(ok, field, value, "a finite number of at least 0");
-    }
-
-    fn finite(&mut self, field: &'static str, value: f32) {
-        self.that(value.is_finite(), field, value, "a finite number");
-    }
-
-    fn part(&mut self, field: &'static str, value: f32) {
-        self.that((0.0..=1.0).contains(&value), field, value, "0 to 1");
-    }
-
-    fn finite_vec(&mut self, field: &'static str, value: Vec3) {
-        self.finite(field, value.x + value.y + value.z);
+/// More wheels than a vehicle can have.
+pub(super) fn too_many(count: usize) -> Problem {
+    Problem {
+        field: "Wheels",
+        value: count.to_string(),
+        need: "at most 16",
     }
 }
 

@@ -3,4 +3,5 @@
 mod character;
 mod debug;
 mod foundation;
+mod support;
 mod vehicle;

@@ -17,7 +17,7 @@ use super::{
     solver::{Bend, Growth, Scratch, Solver},
     state::{CharacterState, GroundState, MovementMode},
 };
-use crate::backend::{handles::RapierRigidBodyHandle, neighbourhood::MoverPose, world::WorldPose};
+use crate::backend::{handles::RapierRigidBodyHandle, motion::WorldPose, neighbourhood::MoverPose};
 
 use outcome::support_velocity;
 pub(super) use surroundings::{Surroundings, Volume};

@@ -4,7 +4,7 @@ use bevy::{math::ops, prelude::*};
 
 use super::Tick;
 use crate::{
-    backend::{neighbourhood::ObstacleKind, world::WorldPose},
+    backend::{motion::WorldPose, neighbourhood::ObstacleKind},
     character::{
         config::SlopeSpeed,
         motor::{along_ground, kept_velocity, leave_ground},

@@ -1,6 +1,4 @@
-//! What the tests of the character share: rates, collected findings, oracles, a log of events.
-
-use std::{fmt::Display, thread};
+//! What the tests of the character share: motors, oracles, a log of events.
 
 use bevy::{
     math::{DVec3, ops},
@@ -10,87 +8,10 @@ use bevy_embody::prelude::*;
 use bevy_rapier3d::{parry, parry::math::Pose, prelude::*};
 use embody_scenes::Sim;
 
-/// The tick rates that everything must hold at, hertz.
-pub const RATES: [f64; 4] = [30.0, 60.0, 120.0, 240.0];
+pub use crate::support::{Findings, G, RATES, edit, insert};
 
 /// Walking speed of [`prompt`], metres per second.
 pub const SPEED: f32 = 5.0;
-
-/// Gravity of the harness, metres per second squared.
-pub const G: f32 = 9.81;
-
-/// Collects what went wrong, so that one failure shows the numbers of all cases.
-#[derive(Default)]
-pub struct Findings {
-    wrong: Vec<String>,
-    checked: usize,
-}
-
-impl Findings {
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// `measured` must be within `tolerance` of `wanted`.
-    pub fn near(&mut self, what: impl Display, measured: f32, wanted: f32, tolerance: f32) {
-        self.checked += 1;
-        let off = (measured - wanted).abs();
-        if off.is_nan() || off > tolerance {
-            self.wrong.push(format!(
-                "{what}: measured {measured}, wanted {wanted} ± {tolerance} (off by {off:.6})"
-            ));
-        }
-    }
-
-    /// `measured` must be within a part of `wanted`.
-    pub fn within(&mut self, what: impl Display, measured: f32, wanted: f32, part: f32) {
-        self.near(what, measured, wanted, (wanted * part).abs());
-    }
-
-    /// `measured` must not exceed `bound`.
-    pub fn at_most(&mut self, what: impl Display, measured: f32, bound: f32) {
-        self.checked += 1;
-        if measured.is_nan() || measured > bound {
-            self.wrong.push(format!(
-                "{what}: measured {measured}, wanted at most {bound}"
-            ));
-        }
-    }
-
-    /// `measured` must not fall below `bound`.
-    pub fn at_least(&mut self, what: impl Display, measured: f32, bound: f32) {
-        self.checked += 1;
-        if measured.is_nan() || measured < bound {
-            self.wrong.push(format!(
-                "{what}: measured {measured}, wanted at least {bound}"
-            ));
-        }
-    }
-
-    /// Must be so.
-    pub fn holds(&mut self, what: impl Display, so: bool) {
-        self.checked += 1;
-        if !so {
-            self.wrong.push(format!("{what}: does not hold"));
-        }
-    }
-}
-
-impl Drop for Findings {
-    fn drop(&mut self) {
-        if thread::panicking() {
-            return;
-        }
-        assert!(self.checked > 0, "nothing was checked");
-        assert!(
-            self.wrong.is_empty(),
-            "{} of {} checks failed:\n  {}",
-            self.wrong.len(),
-            self.checked,
-            self.wrong.join("\n  ")
-        );
-    }
-}
 
 /// A motor that reaches its speed and stops at once, so that distances have a closed form.
 pub fn prompt() -> CharacterMotor {
@@ -128,21 +49,6 @@ pub fn set_velocity(sim: &mut Sim, character: Entity, velocity: Vec3) {
         .get_mut::<CharacterState>(character)
         .expect("a character has a state")
         .velocity = velocity;
-}
-
-/// Changes a component in place.
-pub fn edit<C: Component<Mutability = bevy::ecs::component::Mutable>>(
-    sim: &mut Sim,
-    entity: Entity,
-    change: impl FnOnce(&mut C),
-) {
-    let mut entity = sim.app.world_mut().entity_mut(entity);
-    change(&mut entity.get_mut::<C>().expect("the component is there"));
-}
-
-/// Adds components to an entity.
-pub fn insert(sim: &mut Sim, entity: Entity, bundle: impl Bundle) {
-    sim.app.world_mut().entity_mut(entity).insert(bundle);
 }
 
 /// Position with the part that single precision cannot hold, as double precision.

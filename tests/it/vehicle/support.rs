@@ -1,17 +1,11 @@
-//! What the tests of the vehicle share: the reference car, rates, collected findings.
-
-use std::{fmt::Display, thread};
+//! What the tests of the vehicle share: the reference car.
 
 use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::Sim;
 
-/// The tick rates that everything must hold at, hertz.
-pub const RATES: [f64; 4] = [30.0, 60.0, 120.0, 240.0];
-
-/// Gravity of the harness, metres per second squared.
-pub const G: f32 = 9.81;
+pub use crate::support::{Findings, G, RATES, edit, insert};
 
 /// Mass of the reference car, kilograms.
 pub const MASS: f32 = 1500.0;
@@ -25,88 +19,6 @@ pub const HEIGHT: f32 = 0.55;
 pub const RADIUS: f32 = 0.3;
 /// Static sag, metres: `g / (2π · 1.5 Hz)²`.
 pub const SAG: f32 = 0.110_44;
-
-/// Collects what went wrong, so that one failure shows the numbers of all cases.
-#[derive(Default)]
-pub struct Findings {
-    wrong: Vec<String>,
-    checked: usize,
-    worst: f32,
-}
-
-impl Findings {
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// `measured` must be within `tolerance` of `wanted`.
-    pub fn near(&mut self, what: impl Display, measured: f32, wanted: f32, tolerance: f32) {
-        self.checked += 1;
-        let off = (measured - wanted).abs();
-        self.worst = self.worst.max(off / tolerance);
-        if std::env::var_os("VEHICLE_FIGURES").is_some() {
-            eprintln(&format!("{what}: {measured} for {wanted} ± {tolerance}"));
-        }
-        if off.is_nan() || off > tolerance {
-            self.wrong.push(format!(
-                "{what}: measured {measured}, wanted {wanted} ± {tolerance} (off by {off:.6})"
-            ));
-        }
-    }
-
-    /// `measured` must be within a part of `wanted`.
-    pub fn within(&mut self, what: impl Display, measured: f32, wanted: f32, part: f32) {
-        self.near(what, measured, wanted, (wanted * part).abs());
-    }
-
-    /// `measured` must not exceed `bound`.
-    pub fn at_most(&mut self, what: impl Display, measured: f32, bound: f32) {
-        self.checked += 1;
-        if std::env::var_os("VEHICLE_FIGURES").is_some() {
-            eprintln(&format!("{what}: {measured} at most {bound}"));
-        }
-        if measured.is_nan() || measured > bound {
-            self.wrong.push(format!(
-                "{what}: measured {measured}, wanted at most {bound}"
-            ));
-        }
-    }
-
-    /// `measured` must not fall below `bound`.
-    pub fn at_least(&mut self, what: impl Display, measured: f32, bound: f32) {
-        self.at_most(what, -measured, -bound);
-    }
-
-    /// Must be so.
-    pub fn holds(&mut self, what: impl Display, so: bool) {
-        self.checked += 1;
-        if !so {
-            self.wrong.push(format!("{what}: does not hold"));
-        }
-    }
-}
-
-/// Figures on demand, for the reports.
-fn eprintln(line: &str) {
-    use std::io::Write;
-    let _ = writeln!(std::io::stderr(), "{line}");
-}
-
-impl Drop for Findings {
-    fn drop(&mut self) {
-        if thread::panicking() {
-            return;
-        }
-        assert!(self.checked > 0, "nothing was checked");
-        assert!(
-            self.wrong.is_empty(),
-            "{} of {} checks failed:\n  {}",
-            self.wrong.len(),
-            self.checked,
-            self.wrong.join("\n  ")
-        );
-    }
-}
 
 /// The reference car: its vehicle, mass and wheels (front left, front right, rear left, rear right).
 #[derive(Clone)]
@@ -313,21 +225,6 @@ impl Car {
                 .iter()
                 .all(|w| w.load.is_finite() && w.force.is_finite())
     }
-}
-
-/// Changes a component in place.
-pub fn edit<C: Component<Mutability = bevy::ecs::component::Mutable>>(
-    sim: &mut Sim,
-    entity: Entity,
-    change: impl FnOnce(&mut C),
-) {
-    let mut entity = sim.app.world_mut().entity_mut(entity);
-    change(&mut entity.get_mut::<C>().expect("the component is there"));
-}
-
-/// Adds components to an entity.
-pub fn insert(sim: &mut Sim, entity: Entity, bundle: impl Bundle) {
-    sim.app.world_mut().entity_mut(entity).insert(bundle);
 }
 
 /// A large plane through the origin, tilted by this rotation.
