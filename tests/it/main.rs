@@ -3,5 +3,6 @@
 mod character;
 mod debug;
 mod foundation;
+mod physics;
 mod support;
 mod vehicle;

@@ -69,6 +69,15 @@ impl Findings {
         }
     }
 
+    /// Two runs must be equal, tick by tick.
+    pub fn same<T: PartialEq>(&mut self, what: impl Display, first: &[T], again: &[T]) {
+        let differ = first.iter().zip(again).position(|(a, b)| a != b);
+        self.holds(
+            format!("{what}: first tick that differs {differ:?}"),
+            differ.is_none() && first.len() == again.len(),
+        );
+    }
+
     /// Must be so.
     pub fn holds(&mut self, what: impl Display, so: bool) {
         self.checked += 1;

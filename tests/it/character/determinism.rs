@@ -9,10 +9,7 @@ use bevy::{
     time::TimeUpdateStrategy,
 };
 use bevy_embody::prelude::*;
-use bevy_rapier3d::{
-    prelude::*,
-    rapier::prelude::{ColliderSet, DefaultBroadPhase, IslandManager, NarrowPhase, RigidBodySet},
-};
+use bevy_rapier3d::prelude::*;
 use embody_scenes::{Make, Mover, Patch, Sim, Stairs};
 
 use super::support::*;
@@ -232,56 +229,6 @@ fn the_number_of_ticks_in_a_frame_does_not_matter() {
     );
 }
 
-/// All that a rollback restores of a character.
-fn save(sim: &Sim, who: Entity) -> (Transform, CharacterState, CharacterIntent) {
-    (sim.get(who), sim.state(who), sim.get(who))
-}
-
-fn restore(sim: &mut Sim, who: Entity, saved: &(Transform, CharacterState, CharacterIntent)) {
-    insert(sim, who, saved.clone());
-}
-
-/// What of the physics world a rollback restores: what moves in it, and where queries find it.
-#[derive(Clone)]
-struct Physics {
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
-    broad_phase: DefaultBroadPhase,
-    narrow_phase: NarrowPhase,
-    islands: IslandManager,
-}
-
-type Context = (
-    &'static mut RapierRigidBodySet,
-    &'static mut RapierContextColliders,
-    &'static mut RapierContextSimulation,
-);
-
-fn save_physics(sim: &mut Sim) -> Physics {
-    let world = sim.app.world_mut();
-    let mut context = world.query::<Context>();
-    let (bodies, colliders, simulation) = context.single_mut(world).expect("one physics world");
-    Physics {
-        bodies: bodies.bodies.clone(),
-        colliders: colliders.colliders.clone(),
-        broad_phase: simulation.broad_phase.clone(),
-        narrow_phase: simulation.narrow_phase.clone(),
-        islands: simulation.islands.clone(),
-    }
-}
-
-fn restore_physics(sim: &mut Sim, physics: &Physics) {
-    let world = sim.app.world_mut();
-    let mut context = world.query::<Context>();
-    let (mut bodies, mut colliders, mut simulation) =
-        context.single_mut(world).expect("one physics world");
-    bodies.bodies = physics.bodies.clone();
-    colliders.colliders = physics.colliders.clone();
-    simulation.broad_phase = physics.broad_phase.clone();
-    simulation.narrow_phase = physics.narrow_phase.clone();
-    simulation.islands = physics.islands.clone();
-}
-
 /// A static level with a lift and a turntable, on which a save mid-way is restored.
 fn save_course(sim: &mut Sim) -> (Entity, [Entity; 2]) {
     let stairs = Stairs {
@@ -330,7 +277,7 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
                 let ticks = sim.app.world().get::<Mover>(mover).expect("a mover").ticks;
                 (mover, sim.get::<Transform>(mover), ticks)
             });
-            let physics = save_physics(&mut sim);
+            let physics = Physics::save(&mut sim);
             let run = |sim: &mut Sim| -> Vec<_> {
                 (0..60)
                     .map(|tick| {
@@ -342,18 +289,14 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
             };
             let first = run(&mut sim);
             for round in 0..2 {
-                restore(&mut sim, who, &saved);
+                insert(&mut sim, who, saved.clone());
                 for (mover, transform, ticks) in platforms {
                     insert(&mut sim, mover, transform);
                     edit::<Mover>(&mut sim, mover, |mover| mover.ticks = ticks);
                 }
-                restore_physics(&mut sim, &physics);
+                physics.restore(&mut sim);
                 let again = run(&mut sim);
-                let differ = first.iter().zip(&again).position(|(a, b)| a != b);
-                found.holds(
-                    format!("{hz} Hz {name} round {round}: first tick that differs {differ:?}"),
-                    differ.is_none(),
-                );
+                found.same(format!("{hz} Hz {name} round {round}"), &first, &again);
             }
         }
     }

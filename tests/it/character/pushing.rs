@@ -1,4 +1,4 @@
-//! Pushing bodies and being pushed: force balances, caps, weight, opt-outs.
+//! Pushing bodies: force balances, caps, where a push acts.
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
@@ -203,263 +203,6 @@ fn without_strength_every_body_is_a_wall() {
 }
 
 #[test]
-fn the_weight_of_a_character_rests_on_what_it_stands_on() {
-    // A beam on a hinge: the side with the character goes down; without weight it stays level.
-    let mut found = Findings::new();
-    for hz in RATES {
-        for weighs in [true, false] {
-            let mut sim = Sim::new(hz);
-            let post = sim.block(Vec3::new(0.0, 0.5, 0.0), Vec3::new(0.1, 1.0, 0.1));
-            let board = sim.dynamic(
-                Collider::cuboid(4.0, 0.05, 0.5),
-                Transform::from_xyz(0.0, 1.5, 0.0),
-                40.0,
-            );
-            let hinge = RevoluteJointBuilder::new(Vec3::Z)
-                .local_anchor1(Vec3::Y)
-                .local_anchor2(Vec3::ZERO);
-            insert(
-                &mut sim,
-                board,
-                ImpulseJoint::new(post, TypedJoint::RevoluteJoint(hinge.build())),
-            );
-            let rider = runner_with(
-                &mut sim,
-                Character {
-                    weighs_on_ground: weighs,
-                    ..default()
-                },
-                Vec3::new(2.0, 1.55, 0.0),
-            );
-            sim.seconds(0.5);
-            let tilt = (sim.get::<Transform>(board).rotation * Vec3::X).y;
-            let case = format!("{hz} Hz weighs {weighs}");
-            if weighs {
-                // 70 kg at 2 m on a beam of 213 kg m²: 2.8 rad/s² when both move as one, 0.35 rad in half
-                // a second; a free fall of the rider's side is 0.61 rad.
-                found.at_most(format!("{case}: tilt"), tilt, -0.28);
-                found.at_least(format!("{case}: tilt"), tilt, -0.55);
-            } else {
-                found.near(format!("{case}: tilt"), tilt, 0.0, 0.03);
-            }
-            found.holds(format!("{case}: finite"), finite(&sim, rider));
-        }
-    }
-}
-
-/// A plate of 100 kg that hangs at rest on a spring of 7 kN/m.
-fn scale(hz: f64) -> (Sim, Entity) {
-    let mut sim = Sim::new(hz);
-    let base = sim.block(Vec3::NEG_Y * 10.0, Vec3::ONE);
-    let plate = sim.dynamic(Collider::cuboid(1.0, 0.1, 1.0), Transform::IDENTITY, 100.0);
-    insert(&mut sim, plate, LockedAxes::ROTATION_LOCKED);
-    let spring = PrismaticJointBuilder::new(Vec3::Y)
-        .local_anchor1(Vec3::Y * 10.0)
-        .local_anchor2(Vec3::ZERO)
-        .motor_model(MotorModel::ForceBased)
-        .motor_position(0.0, 7000.0, 1500.0);
-    insert(
-        &mut sim,
-        plate,
-        ImpulseJoint::new(base, TypedJoint::PrismaticJoint(spring.build())),
-    );
-    sim.seconds(4.0);
-    (sim, plate)
-}
-
-#[test]
-fn a_scale_under_a_standing_character_shows_its_weight() {
-    // The same spring under a dead load of the same weight is the measure.
-    let mut found = Findings::new();
-    for hz in RATES {
-        let (mut sim, plate) = scale(hz);
-        let free = sim.position(plate).y;
-        insert(
-            &mut sim,
-            plate,
-            ExternalForce {
-                force: Vec3::NEG_Y * 80.0 * G,
-                torque: Vec3::ZERO,
-            },
-        );
-        sim.seconds(6.0);
-        let dead_load = free - sim.position(plate).y;
-        let (mut sim, plate) = scale(hz);
-        let character = Character {
-            mass: 80.0,
-            ..default()
-        };
-        let stander = runner_with(&mut sim, character, Vec3::Y * (free + 0.11));
-        sim.seconds(6.0);
-        let loaded = sim.position(plate).y;
-        found.within(format!("{hz} Hz: sinks"), free - loaded, dead_load, 0.05);
-        found.within(
-            format!("{hz} Hz: the spring itself"),
-            dead_load,
-            80.0 * G / 7000.0,
-            0.3,
-        );
-        let gap = sim.position(stander).y - loaded - 0.1;
-        found.near(format!("{hz} Hz: stands on it"), gap, 0.0, 0.01);
-    }
-}
-
-#[test]
-fn a_body_that_runs_into_a_character_pushes_it_according_to_its_mass() {
-    let mut found = Findings::new();
-    for hz in RATES {
-        let mut moved = Vec::new();
-        for mass in [1.0, 10.0, 70.0, 700.0] {
-            let mut sim = Sim::new(hz);
-            record(&mut sim);
-            let floor = sim.floor(0.0);
-            insert(&mut sim, floor, Friction::coefficient(0.0));
-            let ball = sim.dynamic(
-                Collider::ball(0.4),
-                Transform::from_xyz(-2.0, 0.9, 0.0),
-                mass,
-            );
-            insert(
-                &mut sim,
-                ball,
-                (Velocity::linear(Vec3::X * 4.0), GravityScale(0.0)),
-            );
-            let target = sim.spawn((Character::default(), Transform::IDENTITY));
-            sim.seconds(2.0);
-            let pushed = sim.position(target).x;
-            moved.push(pushed);
-            let hits = take_events(&mut sim).hit;
-            let case = format!("{hz} Hz {mass} kg");
-            found.holds(
-                format!("{case}: hit told"),
-                hits.iter().any(|h| h.entity == target && h.other == ball),
-            );
-            found.holds(format!("{case}: finite"), finite(&sim, target));
-            // No more than the ball brought along.
-            found.at_most(format!("{case}: pushed"), pushed, 4.0 * 2.0);
-            found.at_least(format!("{case}: pushed"), pushed, -0.001);
-        }
-        for pair in moved.windows(2) {
-            found.holds(
-                format!("{hz} Hz: a heavier ball pushes farther, {moved:?}"),
-                pair[1] > pair[0],
-            );
-        }
-        found.at_least(format!("{hz} Hz: 700 kg pushes"), moved[3], 0.2);
-    }
-}
-
-#[test]
-fn a_character_that_is_not_pushed_by_bodies_stands_like_a_rock() {
-    let mut found = Findings::new();
-    for hz in RATES {
-        let mut sim = Sim::new(hz);
-        let floor = sim.floor(0.0);
-        insert(&mut sim, floor, Friction::coefficient(0.0));
-        let ball = sim.dynamic(
-            Collider::ball(0.4),
-            Transform::from_xyz(-2.0, 0.9, 0.0),
-            700.0,
-        );
-        insert(
-            &mut sim,
-            ball,
-            (Velocity::linear(Vec3::X * 4.0), GravityScale(0.0)),
-        );
-        let character = Character {
-            pushed_by_bodies: false,
-            ..default()
-        };
-        let rock = runner_with(&mut sim, character, Vec3::ZERO);
-        sim.seconds(2.0);
-        found.at_most(
-            format!("{hz} Hz: moved"),
-            sim.position(rock).length(),
-            0.001,
-        );
-        // The engine lets a body of ten times the mass sink in a little.
-        found.at_most(format!("{hz} Hz: ball stopped"), sim.position(ball).x, -0.6);
-    }
-}
-
-#[test]
-fn a_kinematic_wall_pushes_an_idle_character_along() {
-    // Half (0.5, 2, 2) from x = -3 at 2 m/s: known to pass through an idle character elsewhere.
-    let mut found = Findings::new();
-    for hz in RATES {
-        for idle in [0.0, 4.0] {
-            let mut sim = Sim::new(hz);
-            sim.floor(0.0);
-            let wall = sim.mover(Collider::cuboid(0.5, 2.0, 2.0), move |t| {
-                Transform::from_xyz((-3.0 + 2.0 * (t - idle).max(0.0)) as f32, 2.0, 0.0)
-            });
-            let idler = runner(&mut sim, Vec3::ZERO);
-            sim.seconds(idle);
-            let mut overlap = f32::MIN;
-            for _ in 0..(4.0 * hz) as usize {
-                sim.ticks(1);
-                overlap = overlap.max(sim.position(wall).x + 0.5 - (sim.position(idler).x - 0.3));
-            }
-            let case = format!("{hz} Hz idle {idle} s");
-            found.at_most(format!("{case}: deepest overlap"), overlap, 0.01);
-            found.near(
-                format!("{case}: pushed to"),
-                sim.position(idler).x,
-                5.0 + 0.5 + 0.3,
-                0.03,
-            );
-            found.near(format!("{case}: height"), sim.position(idler).y, 0.0, 0.002);
-        }
-    }
-}
-
-#[test]
-fn the_crate_under_a_character_is_not_pushed_by_its_own_rider() {
-    let mut found = Findings::new();
-    for hz in RATES {
-        let mut sim = Sim::new(hz);
-        let floor = sim.floor(0.0);
-        insert(&mut sim, floor, Friction::coefficient(0.0));
-        let raft = sim.dynamic(
-            Collider::cuboid(1.0, 0.25, 1.0),
-            Transform::from_xyz(0.0, 0.25, 0.0),
-            20.0,
-        );
-        let rider = runner(&mut sim, Vec3::new(0.3, 0.5, 0.2));
-        sim.seconds(3.0);
-        found.at_most(
-            format!("{hz} Hz: raft"),
-            sim.position(raft).with_y(0.0).length(),
-            0.01,
-        );
-        found.near(format!("{hz} Hz: rider"), sim.position(rider).y, 0.5, 0.01);
-    }
-}
-
-#[test]
-fn another_character_pushes_the_crate_one_stands_on() {
-    let mut found = Findings::new();
-    for hz in RATES {
-        let mut push = pushing(hz, 100.0, 0.1, 2.0, 800.0);
-        let rider = runner(&mut push.sim, Vec3::new(1.0, 1.0, 0.0));
-        push.sim.seconds(3.0);
-        let on = push.sim.position(rider) - push.sim.position(push.crate_);
-        found.near(
-            format!("{hz} Hz: rider carried along"),
-            on.x,
-            0.0,
-            0.05 + 4.0 / hz as f32,
-        );
-        found.near(format!("{hz} Hz: rider on top"), on.y, 0.5, 0.01);
-        found.at_least(
-            format!("{hz} Hz: crate moved"),
-            push.sim.position(push.crate_).x,
-            2.0,
-        );
-    }
-}
-
-#[test]
 fn an_impulse_acts_at_the_same_place_wherever_the_body_has_its_origin() {
     // The same box as a body at y = 3 and as a collider offset by 3 m. It hangs clear of the floor:
     // a corner that turns into it is Rapier's affair.
@@ -553,50 +296,24 @@ fn a_crate_of_two_halves_is_pushed_like_a_whole_one() {
 }
 
 #[test]
-fn a_body_that_cannot_be_pushed_pushes_like_a_wall() {
+fn another_character_pushes_the_crate_one_stands_on() {
     let mut found = Findings::new();
     for hz in RATES {
-        for pushed in [true, false] {
-            let mut sim = Sim::new(hz);
-            let floor = sim.floor(0.0);
-            insert(&mut sim, floor, Friction::coefficient(0.0));
-            let block = sim.dynamic(
-                Collider::cuboid(0.5, 0.5, 0.5),
-                Transform::from_xyz(-2.0, 0.55, 0.0),
-                20.0,
-            );
-            insert(
-                &mut sim,
-                block,
-                (
-                    Velocity::linear(Vec3::X * 2.0),
-                    GravityScale(0.0),
-                    LockedAxes::ROTATION_LOCKED,
-                    NotPushable,
-                ),
-            );
-            let idler = runner_with(
-                &mut sim,
-                Character {
-                    pushed_by_bodies: pushed,
-                    ..default()
-                },
-                Vec3::ZERO,
-            );
-            sim.seconds(2.0);
-            let case = format!("{hz} Hz pushed {pushed}");
-            if pushed {
-                let gap = sim.position(idler).x - sim.position(block).x;
-                found.near(format!("{case}: pushed ahead"), gap, 0.8, 0.02);
-                found.near(
-                    format!("{case}: block goes on"),
-                    sim.position(block).x,
-                    2.0,
-                    0.05,
-                );
-            } else {
-                found.near(format!("{case}: stays"), sim.position(idler).x, 0.0, 0.02);
-            }
-        }
+        let mut push = pushing(hz, 100.0, 0.1, 2.0, 800.0);
+        let rider = runner(&mut push.sim, Vec3::new(1.0, 1.0, 0.0));
+        push.sim.seconds(3.0);
+        let on = push.sim.position(rider) - push.sim.position(push.crate_);
+        found.near(
+            format!("{hz} Hz: rider carried along"),
+            on.x,
+            0.0,
+            0.05 + 4.0 / hz as f32,
+        );
+        found.near(format!("{hz} Hz: rider on top"), on.y, 0.5, 0.01);
+        found.at_least(
+            format!("{hz} Hz: crate moved"),
+            push.sim.position(push.crate_).x,
+            2.0,
+        );
     }
 }

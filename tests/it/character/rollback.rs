@@ -2,19 +2,10 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
-use bevy_rapier3d::{
-    prelude::*,
-    rapier::prelude::{ColliderSet, DefaultBroadPhase, IslandManager, NarrowPhase, RigidBodySet},
-};
+use bevy_rapier3d::prelude::*;
 use embody_scenes::Sim;
 
 use super::support::*;
-
-type Saved = (Transform, CharacterState, CharacterIntent);
-
-fn save(sim: &Sim, who: Entity) -> Saved {
-    (sim.get(who), sim.state(who), sim.get(who))
-}
 
 /// A tunnel of this free height over a floor, from x = 2 on.
 fn tunnel(sim: &mut Sim, free: f32) {
@@ -146,47 +137,6 @@ fn a_state_set_back_to_its_default_stands_at_once_at_full_height() {
     }
 }
 
-/// What of the physics world a rollback restores.
-type Physics = (
-    RigidBodySet,
-    ColliderSet,
-    DefaultBroadPhase,
-    NarrowPhase,
-    IslandManager,
-);
-
-type Context = (
-    &'static mut RapierRigidBodySet,
-    &'static mut RapierContextColliders,
-    &'static mut RapierContextSimulation,
-);
-
-fn save_physics(sim: &mut Sim) -> Physics {
-    let world = sim.app.world_mut();
-    let mut context = world.query::<Context>();
-    let (bodies, colliders, simulation) = context.single_mut(world).expect("one physics world");
-    (
-        bodies.bodies.clone(),
-        colliders.colliders.clone(),
-        simulation.broad_phase.clone(),
-        simulation.narrow_phase.clone(),
-        simulation.islands.clone(),
-    )
-}
-
-fn restore_physics(sim: &mut Sim, physics: &Physics) {
-    let world = sim.app.world_mut();
-    let mut context = world.query::<Context>();
-    let (mut bodies, mut colliders, mut simulation) =
-        context.single_mut(world).expect("one physics world");
-    let (a, b, c, d, e) = physics.clone();
-    bodies.bodies = a;
-    colliders.colliders = b;
-    simulation.broad_phase = c;
-    simulation.narrow_phase = d;
-    simulation.islands = e;
-}
-
 /// One save: crouched at a crate's side, in a pool, or on a ladder.
 fn scene(hz: f64) -> (Sim, Entity, Entity) {
     let mut sim = Sim::new(hz);
@@ -246,7 +196,7 @@ fn a_save_restored_gives_the_same_ticks_again_across_stances_bodies_water_and_la
             sim.seconds(0.3);
             let saved = save(&sim, who);
             let body = (sim.get::<Transform>(crate_), sim.get::<Velocity>(crate_));
-            let physics = save_physics(&mut sim);
+            let physics = Physics::save(&mut sim);
             let run = |sim: &mut Sim| -> Vec<_> {
                 (0..60)
                     .map(|tick| {
@@ -275,13 +225,9 @@ fn a_save_restored_gives_the_same_ticks_again_across_stances_bodies_water_and_la
                 sim.ticks(2);
                 insert(&mut sim, who, saved.clone());
                 insert(&mut sim, crate_, body);
-                restore_physics(&mut sim, &physics);
+                physics.restore(&mut sim);
                 let again = run(&mut sim);
-                let differ = first.iter().zip(&again).position(|(a, b)| a != b);
-                found.holds(
-                    format!("{hz} Hz {name} round {round}: first tick that differs {differ:?}"),
-                    differ.is_none(),
-                );
+                found.same(format!("{hz} Hz {name} round {round}"), &first, &again);
             }
         }
     }

@@ -327,11 +327,7 @@ fn stairs_as_steep_as_a_wall_are_not_climbed() {
             let walker = runner(&mut sim, Vec3::new(-1.0, 0.0, 0.0));
             sim.seconds(0.2);
             sim.walk(walker, Vec3::X);
-            let mut high = f32::MIN;
-            for _ in 0..(2.0 * hz) as usize {
-                sim.ticks(1);
-                high = high.max(sim.position(walker).y);
-            }
+            let high = highest(&mut sim, walker, 2.0);
             found.at_most(format!("{hz} Hz {make:?}: highest"), high, 0.01);
         }
     }
@@ -351,11 +347,7 @@ fn a_landing_too_steep_to_stand_on_is_not_climbed() {
         let walker = runner(&mut sim, Vec3::ZERO);
         sim.seconds(0.2);
         sim.walk(walker, Vec3::X);
-        let mut high = f32::MIN;
-        for _ in 0..(2.0 * hz) as usize {
-            sim.ticks(1);
-            high = high.max(sim.position(walker).y);
-        }
+        let high = highest(&mut sim, walker, 2.0);
         found.at_most(format!("{hz} Hz: highest"), high, 0.05);
     }
 }

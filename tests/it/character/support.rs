@@ -8,7 +8,10 @@ use bevy_embody::prelude::*;
 use bevy_rapier3d::{parry, parry::math::Pose, prelude::*};
 use embody_scenes::Sim;
 
-pub use crate::support::{Findings, G, RATES, edit, insert};
+pub use crate::{
+    physics::Physics,
+    support::{Findings, G, RATES, edit, insert},
+};
 
 /// Walking speed of [`prompt`], metres per second.
 pub const SPEED: f32 = 5.0;
@@ -40,6 +43,20 @@ pub fn raw(sim: &mut Sim, foot: Vec3) -> Entity {
         CustomMotor,
         Transform::from_translation(foot),
     ))
+}
+
+/// All that a rollback restores of a character.
+pub fn save(sim: &Sim, who: Entity) -> (Transform, CharacterState, CharacterIntent) {
+    (sim.get(who), sim.state(who), sim.get(who))
+}
+
+/// The highest that a character's foot comes in this time, metres.
+pub fn highest(sim: &mut Sim, who: Entity, seconds: f64) -> f32 {
+    let ticks = (seconds / f64::from(sim.dt())).round() as usize;
+    (0..ticks).fold(f32::MIN, |high, _| {
+        sim.ticks(1);
+        high.max(sim.position(who).y)
+    })
 }
 
 /// Writes a character's velocity, metres per second.
