@@ -4,7 +4,10 @@ use bevy::prelude::*;
 use bevy_rapier3d::{
     plugin::context::RapierContextEntityLink,
     prelude::RapierRigidBodyHandle,
-    rapier::{dynamics::RigidBodyHandle, math::Pose},
+    rapier::{
+        dynamics::{RigidBody, RigidBodyHandle},
+        math::Pose,
+    },
 };
 
 use super::{motion::WorldPose, world_mut::PhysicsWorldsMut};
@@ -60,35 +63,33 @@ impl PhysicsWorldsMut<'_, '_> {
             if force != Vec3::ZERO {
                 let before = (body.user_force(), body.user_torque());
                 body.add_force_at_point(force, point, wake);
-                let after = (body.user_force(), body.user_torque());
-                self.forced.0.push(Forced {
-                    link: link.0,
-                    body: handle,
-                    before,
-                    after,
-                });
+                self.forced.remember(link, handle, before, body);
             }
         }
     }
 
-    /// Remembers a body's force and torque before it was pushed, to give them back after the tick.
+    /// Gives a dynamic body a force and a torque about its centre of mass for the whole tick. A sleeping
+    /// body is left asleep unless `wake`.
     #[cfg(feature = "vehicle")]
-    pub(super) fn note_forced(
+    pub fn force_body(
         &mut self,
-        link: Entity,
-        handle: RigidBodyHandle,
-        before: (Vec3, Vec3),
+        link: &RapierContextEntityLink,
+        handle: &RapierRigidBodyHandle,
+        force: Vec3,
+        torque: Vec3,
+        wake: bool,
     ) {
-        if let Ok((_, _, bodies)) = self.contexts.get(link)
-            && let Some(body) = bodies.bodies.get(handle)
+        if let Ok((_, _, mut bodies)) = self.contexts.get_mut(link.0)
+            && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
+            && body.is_dynamic()
+            && (wake || !body.is_sleeping())
+            && force.is_finite()
+            && torque.is_finite()
         {
-            let after = (body.user_force(), body.user_torque());
-            self.forced.0.push(Forced {
-                link,
-                body: handle,
-                before,
-                after,
-            });
+            let before = (body.user_force(), body.user_torque());
+            body.add_force(force, wake);
+            body.add_torque(torque, wake);
+            self.forced.remember(link, handle.0, before, body);
         }
     }
 
@@ -122,6 +123,23 @@ struct Forced {
 /// The pushes of this tick, in their order; empty between ticks.
 #[derive(Resource)]
 pub(crate) struct ForcedBodies(Vec<Forced>);
+
+impl ForcedBodies {
+    fn remember(
+        &mut self,
+        link: &RapierContextEntityLink,
+        handle: RigidBodyHandle,
+        before: (Vec3, Vec3),
+        body: &RigidBody,
+    ) {
+        self.0.push(Forced {
+            link: link.0,
+            body: handle,
+            before,
+            after: (body.user_force(), body.user_torque()),
+        });
+    }
+}
 
 impl Default for ForcedBodies {
     fn default() -> Self {

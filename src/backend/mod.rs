@@ -21,10 +21,6 @@ pub(crate) mod collider;
 )]
 pub(crate) mod forces;
 #[cfg(any(feature = "character", feature = "vehicle"))]
-#[cfg_attr(
-    not(feature = "character"),
-    expect(dead_code, reason = "what only characters ask")
-)]
 pub(crate) mod motion;
 #[cfg(any(feature = "character", feature = "vehicle"))]
 #[cfg_attr(

@@ -1,16 +1,12 @@
 //! A dynamic body as a solver of forces sees it, and the ground that bodies can be.
 
 use bevy::prelude::*;
-use bevy_rapier3d::{
-    plugin::context::{RapierContextColliders, RapierContextEntityLink},
-    prelude::{RapierColliderHandle, RapierRigidBodyHandle},
-    rapier::dynamics::RigidBody,
-};
+use bevy_rapier3d::{prelude::RapierRigidBodyHandle, rapier::dynamics::RigidBody};
 
 use super::{
+    handles::entity_of,
     motion::{end_of_tick, symmetric},
     world::PhysicsView,
-    world_mut::PhysicsWorldsMut,
 };
 
 /// A dynamic body before the step.
@@ -121,7 +117,7 @@ impl PhysicsView<'_> {
             return Some(GroundMotion::Still);
         };
         if body.is_dynamic() {
-            let body_entity = Entity::from_bits(body.user_data as u64);
+            let body_entity = entity_of(body.user_data);
             return Some(match rigid(body) {
                 Some(rigid) => GroundMotion::Free {
                     body: body_entity,
@@ -174,66 +170,5 @@ impl PhysicsView<'_> {
         let handle = self.colliders.entity2collider().get(&collider)?;
         let pose = self.colliders.colliders.get(*handle)?.position();
         Some((pose.translation, pose.rotation))
-    }
-}
-
-impl PhysicsWorldsMut<'_, '_> {
-    /// Gives a dynamic body a force and a torque about its centre of mass for the whole tick.
-    pub fn force_body(
-        &mut self,
-        link: &RapierContextEntityLink,
-        handle: &RapierRigidBodyHandle,
-        force: Vec3,
-        torque: Vec3,
-        wake: bool,
-    ) {
-        let Some(body) = self.body_mut(link.0, handle.0).filter(|b| b.is_dynamic()) else {
-            return;
-        };
-        if wake && body.is_sleeping() {
-            body.wake_up(true);
-        }
-        if !body.is_sleeping() && force.is_finite() && torque.is_finite() {
-            let before = (body.user_force(), body.user_torque());
-            body.add_force(force, false);
-            body.add_torque(torque, false);
-            self.note_forced(link.0, handle.0, before);
-        }
-    }
-
-    /// Brings what was spawned since the last step into the search tree, and gives new bodies their
-    /// mass, which they would otherwise have only from the coming step on.
-    pub fn admit<'a>(
-        &mut self,
-        new: impl Iterator<Item = (&'a RapierColliderHandle, &'a RapierContextEntityLink)>,
-    ) {
-        for (handle, link) in new {
-            let Some((simulation, colliders, bodies)) = self.parts_mut(link.0) else {
-                continue;
-            };
-            let Some(collider) = colliders.colliders.get(handle.0) else {
-                continue;
-            };
-            if let Some(parent) = collider.parent() {
-                let colliders: &RapierContextColliders = colliders;
-                if let Some(body) = bodies.bodies.get_mut(parent)
-                    && body.is_dynamic()
-                {
-                    body.recompute_mass_properties_from_colliders(&colliders.colliders);
-                }
-            }
-            bodies
-                .bodies
-                .propagate_modified_body_positions_to_colliders(&mut colliders.colliders);
-            let Some(collider) = colliders.colliders.get(handle.0) else {
-                continue;
-            };
-            let aabb = collider.compute_aabb();
-            if collider.is_enabled() && aabb.mins.is_finite() && aabb.maxs.is_finite() {
-                simulation
-                    .broad_phase
-                    .set_aabb(&simulation.integration_parameters, handle.0, aabb);
-            }
-        }
     }
 }

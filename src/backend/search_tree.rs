@@ -134,4 +134,41 @@ impl PhysicsWorldsMut<'_, '_> {
                 .set_aabb(&simulation.integration_parameters, handle.0, aabb);
         }
     }
+
+    /// Brings what was spawned since the last step into the search tree, and gives new bodies their
+    /// mass, which they would otherwise have only from the coming step on.
+    #[cfg(feature = "vehicle")]
+    pub fn admit<'a>(
+        &mut self,
+        new: impl Iterator<Item = (&'a RapierColliderHandle, &'a RapierContextEntityLink)>,
+    ) {
+        for (handle, link) in new {
+            let Ok((mut simulation, mut colliders, mut bodies)) = self.contexts.get_mut(link.0)
+            else {
+                continue;
+            };
+            let Some(collider) = colliders.colliders.get(handle.0) else {
+                continue;
+            };
+            if let Some(parent) = collider.parent()
+                && let Some(body) = bodies.bodies.get_mut(parent)
+                && body.is_dynamic()
+            {
+                body.recompute_mass_properties_from_colliders(&colliders.colliders);
+            }
+            bodies
+                .bodies
+                .propagate_modified_body_positions_to_colliders(&mut colliders.colliders);
+            let Some(collider) = colliders.colliders.get(handle.0) else {
+                continue;
+            };
+            let aabb = collider.compute_aabb();
+            if collider.is_enabled() && aabb.mins.is_finite() && aabb.maxs.is_finite() {
+                let simulation = &mut *simulation;
+                simulation
+                    .broad_phase
+                    .set_aabb(&simulation.integration_parameters, handle.0, aabb);
+            }
+        }
+    }
 }

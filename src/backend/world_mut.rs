@@ -1,9 +1,9 @@
-//! Writing the physics world between its synchronisation and its step.
+//! Writing the physics world between its synchronisation and its step: [`forces`](super::forces) act on
+//! bodies, [`search_tree`](super::search_tree) tells queries where they are.
 
 use bevy::{ecs::system::SystemParam, prelude::*};
-use bevy_rapier3d::{
-    plugin::context::{RapierContextColliders, RapierContextSimulation, RapierRigidBodySet},
-    rapier::dynamics::{RigidBody, RigidBodyHandle},
+use bevy_rapier3d::plugin::context::{
+    RapierContextColliders, RapierContextSimulation, RapierRigidBodySet,
 };
 
 use super::forces::ForcedBodies;
@@ -21,35 +21,4 @@ pub(crate) struct PhysicsWorldsMut<'w, 's> {
         ),
     >,
     pub(super) forced: ResMut<'w, ForcedBodies>,
-}
-
-impl PhysicsWorldsMut<'_, '_> {
-    /// A body, to be written.
-    #[cfg(feature = "vehicle")]
-    pub(super) fn body_mut(
-        &mut self,
-        link: Entity,
-        handle: RigidBodyHandle,
-    ) -> Option<&mut RigidBody> {
-        let (_, _, bodies) = self.contexts.get_mut(link).ok()?;
-        bodies.into_inner().bodies.get_mut(handle)
-    }
-
-    /// Everything of one world.
-    #[cfg(feature = "vehicle")]
-    pub(super) fn parts_mut(
-        &mut self,
-        link: Entity,
-    ) -> Option<(
-        &mut RapierContextSimulation,
-        &mut RapierContextColliders,
-        &mut RapierRigidBodySet,
-    )> {
-        let (simulation, colliders, bodies) = self.contexts.get_mut(link).ok()?;
-        Some((
-            simulation.into_inner(),
-            colliders.into_inner(),
-            bodies.into_inner(),
-        ))
-    }
 }
