@@ -18,7 +18,7 @@ use bevy_rapier3d::{
 use super::{
     handles::entity_of,
     motion::{WorldPose, describe_motion, end_of_tick},
-    neighbourhood::{Motion, Neighbourhood, Obstacle, ObstacleKind, Request},
+    neighbourhood::{Motion, Neighbourhood, Obstacle, ObstacleKind, Request, Volume},
 };
 
 /// All physics worlds, to be read.
@@ -172,9 +172,16 @@ impl<'a> PhysicsView<'a> {
                 continue;
             }
             if collider.is_sensor() {
-                let probe = request.origin + request.probe;
-                if collider.shape().contains_point(collider.position(), probe) {
-                    out.volumes.push(entity_of(collider.user_data));
+                let inside = |point: Vec3| {
+                    let shape = collider.shape();
+                    shape.contains_point(collider.position(), request.origin + point)
+                };
+                let (middle, foot) = (inside(request.middle), inside(request.foot));
+                if middle || foot {
+                    out.volumes.push(Volume {
+                        entity: entity_of(collider.user_data),
+                        middle,
+                    });
                 }
                 continue;
             }

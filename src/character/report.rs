@@ -20,6 +20,8 @@ pub(crate) struct CharacterReport {
     /// Ground when the tick began.
     pub left: Option<Entity>,
     pub jumped: bool,
+    /// Whether gravity pulls it off the ground.
+    pub lifted: bool,
     /// Whether the game put it somewhere before the tick.
     pub placed: bool,
     /// Where to be at the end of the tick.

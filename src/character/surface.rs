@@ -57,6 +57,10 @@ impl Default for WaterVolume {
 /// that covers the space from which it can be climbed. The entity's local `+Z` points from the
 /// ladder to the climber, its local `+Y` along the rungs' climb. A ladder on a body that moves takes
 /// its climber along. In water it is climbed by who swims towards it.
+///
+/// It begins to be climbed by who moves towards it with the waist in the volume, and is left at the
+/// top when waist and feet are out, or when the feet are above what is behind it: a volume that ends
+/// level with a ledge, or above it, leads onto the ledge.
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]

@@ -23,8 +23,9 @@ pub(crate) struct Request<'a> {
     pub high: Vec3,
     /// Pieces farther than this from the mover's start are left out, metres.
     pub reach: f32,
-    /// A point, relative to the origin, to find the sensors that hold it.
-    pub probe: Vec3,
+    /// Points, relative to the origin, to find the sensors that hold them: the mover's middle and foot.
+    pub middle: Vec3,
+    pub foot: Vec3,
 }
 
 impl Neighbourhood {

@@ -20,6 +20,14 @@ pub(crate) use piece::{Geometry, Piece};
 
 use crate::math::Closest;
 
+/// A sensor that holds the mover's middle or foot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Volume {
+    pub entity: Entity,
+    /// Whether it holds the middle.
+    pub middle: bool,
+}
+
 /// What kind of thing an obstacle is, in the order in which they give way: the later ones first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ObstacleKind {
@@ -140,8 +148,8 @@ pub(crate) struct Neighbourhood {
     pub queries: u32,
     /// Whether any obstacle moves.
     pub moving: bool,
-    /// Entities of the sensors that hold the request's probe point.
-    pub volumes: Vec<Entity>,
+    /// The sensors that hold the mover's middle or foot.
+    pub volumes: Vec<Volume>,
     /// How much nearer than at the start of the tick any piece can come by its own motion, metres.
     pub slack: f32,
     order: Vec<(f32, u32)>,

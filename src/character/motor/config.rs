@@ -36,7 +36,8 @@ pub struct CharacterMotor {
     pub coyote_time: f32,
     /// How long a press of jump is remembered, seconds. At 0 it counts in its own tick only.
     pub jump_buffer: f32,
-    /// Part of gravity that acts, dimensionless. At 0 it hovers; negative it falls upwards.
+    /// Part of gravity that acts, dimensionless. At 0 it hovers; negative it falls upwards, also off the
+    /// ground, where it cannot walk or jump.
     pub gravity_scale: f32,
     /// Strength of gravity, metres per second squared, in place of the physics world's. Negative it
     /// acts along up.
@@ -89,6 +90,13 @@ impl Default for CharacterMotor {
             climb_speed: 2.5,
             turn_rate: None,
         }
+    }
+}
+
+impl CharacterMotor {
+    /// Acceleration against up in a world with this gravity, metres per second squared.
+    pub(crate) fn downward(&self, world: Vec3) -> f32 {
+        self.gravity.unwrap_or(world.length()) * self.gravity_scale
     }
 }
 

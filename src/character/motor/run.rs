@@ -90,6 +90,7 @@ pub(crate) fn drive_motors(
                 let wanted = up.and_then(|up| wanted_up(entity, &state, up, view.gravity, &poses));
                 let intent = finite(*intent);
                 let at_rest = state.on_ground()
+                    && (custom || motor.downward(view.gravity) >= 0.0)
                     && state.velocity == Vec3::ZERO
                     && intent.movement == Vec3::ZERO
                     && !intent.jump
@@ -114,6 +115,7 @@ pub(crate) fn drive_motors(
                 report.was = state.ground.state;
                 report.left = state.ground.entity;
                 report.jumped = false;
+                report.lifted = false;
                 if let (Some(up), Some(wanted)) = (up, wanted) {
                     // Nobody has to turn to the up that it begins with.
                     let first = state.last_pose.is_none();
@@ -132,8 +134,8 @@ pub(crate) fn drive_motors(
                     }
                     Course::constant(finite_or_zero(state.velocity))
                 } else {
-                    let gravity =
-                        motor.gravity.unwrap_or(view.gravity.length()) * motor.gravity_scale;
+                    let gravity = motor.downward(view.gravity);
+                    report.lifted = gravity < 0.0;
                     let mut run = Run {
                         config,
                         motor,
@@ -292,13 +294,27 @@ impl Run<'_> {
         };
         self.state.volume_mode = given;
         if mode != self.state.mode {
-            let leaps = self.state.mode == MovementMode::Swim && self.intent.jump;
+            let was = self.state.mode;
+            let leaps = was == MovementMode::Swim && self.intent.jump;
             self.state.mode = mode;
             if leaps && mode == MovementMode::Walk {
-                // Out of the water onto a bank.
-                let speed = jump_speed(self.motor.jump_height * 0.5, self.gravity);
+                // Towards a bank the feet, which hang as deep as the waist is high, have to clear it.
+                let deep = if self.intent.movement.reject_from(self.state.up) == Vec3::ZERO {
+                    0.0
+                } else {
+                    0.5 * self.state.height
+                };
                 let climb = self.state.velocity.dot(self.state.up);
+                // The waist came out somewhere within the last tick: in the mean, half way.
+                let risen = 0.5 * climb.max(0.0) * self.dt;
+                let height = (self.motor.jump_height * 0.5 + deep - risen).max(0.0);
+                let speed = jump_speed(height, self.gravity);
                 self.state.velocity += self.state.up * (speed - climb).max(0.0);
+            }
+            if self.state.volume_mode.is_none() && was == MovementMode::Climb {
+                // Over the end of a ladder, onto what it leads to: no hop.
+                let climb = self.state.velocity.dot(self.state.up);
+                self.state.velocity -= self.state.up * climb.max(0.0);
             }
             if mode != MovementMode::Walk && self.state.on_ground() && mode == MovementMode::Swim {
                 leave_ground(self.config, self.state);
@@ -390,6 +406,9 @@ impl Run<'_> {
 
     fn on_foot(&mut self) -> Course {
         let up = self.state.up;
+        if self.gravity < 0.0 && self.state.on_ground() {
+            leave_ground(self.config, self.state);
+        }
         let movement = self.intent.movement;
         let speed = self.speed();
         let wish = limited(movement - up * movement.dot(up)) * speed;

@@ -58,7 +58,8 @@ impl Tick<'_, '_, '_, '_> {
             low: low - grow,
             high: high + grow,
             reach: displacement.length() + below.max(above) + margin + aside,
-            probe: pose.position + up * mover.middle,
+            middle: pose.position + up * mover.middle,
+            foot: pose.position,
         };
         let around = self.around;
         around.view.gather(

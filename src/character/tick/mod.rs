@@ -228,10 +228,12 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
                 other => other,
             };
         }
-        if !walks
-            && support.state == GroundState::OnGround
-            && self.state.mode != MovementMode::Climb
-        {
+        let stands = match self.state.mode {
+            MovementMode::Walk => !self.report.lifted,
+            MovementMode::Climb => true,
+            MovementMode::Fly | MovementMode::Swim => false,
+        };
+        if !stands && support.state == GroundState::OnGround {
             support.state = GroundState::Unsupported;
         }
         if climbed.is_some() {

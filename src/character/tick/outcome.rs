@@ -12,9 +12,12 @@ use crate::{
         platform,
         report::{BodyImpulse, NewHit},
         solver::{Bend, Solver, Support},
-        state::{Anchor, Ground, GroundMaterial, GroundState, LastPose},
+        state::{Anchor, Ground, GroundMaterial, GroundState, LastPose, MovementMode},
     },
 };
+
+/// Who leans on something that faces a ladder's climber by at least this cosine hangs on over its end.
+const LEANS: f32 = 0.3;
 
 impl Tick<'_, '_, '_, '_> {
     /// Writes the outcome into state, outputs and report.
@@ -118,13 +121,6 @@ impl Tick<'_, '_, '_, '_> {
             self.state.jumping = false;
         }
         let stood_on = core::mem::replace(&mut self.state.ground, ground);
-        self.state.water = self
-            .around
-            .volume(&solver.near.volumes, self.state.water, |v| v.0.is_some());
-        self.state.ladder = self
-            .around
-            .volume(&solver.near.volumes, self.state.ladder, |v| v.1.is_some());
-
         // What the slope does not explain is a step, up or down.
         let rise = if on_ground && was_on_ground {
             (p - solver.pose.position).dot(up) - ramp
@@ -134,6 +130,31 @@ impl Tick<'_, '_, '_, '_> {
         self.note_step(solver, climbed, snapped, rise);
         self.weigh(solver, &support, &stood_on, origin);
         self.note_contacts(solver, p, origin);
+        self.note_volumes(solver);
+    }
+
+    /// The water and the ladder that it is at.
+    fn note_volumes(&mut self, solver: &Solver) {
+        let volumes = solver.near.volumes.iter();
+        let about_middle = volumes.clone().filter(|v| v.middle).map(|v| v.entity);
+        let water = self.state.water;
+        self.state.water = self
+            .around
+            .volume(about_middle.clone(), water, |v| v.0.is_some());
+        let last = self.state.ladder;
+        let contacts = &self.contacts.contacts;
+        self.state.ladder = self
+            .around
+            .volume(about_middle, last, |v| v.1.is_some())
+            .or_else(|| {
+                // Over its end a climber goes on until the feet are clear of what it leans on.
+                let climbs = self.state.mode == MovementMode::Climb;
+                let at_end = volumes.clone().any(|v| Some(v.entity) == last);
+                let (_, ladder, pose) = self.around.volumes.get(last?).ok()?;
+                let out = pose.rotation() * Vec3::Z;
+                let leans = contacts.iter().any(|c| c.normal.dot(out) > LEANS);
+                last.filter(|_| climbs && at_end && ladder.is_some() && leans)
+            });
     }
 
     /// The ground as the state tells it.
@@ -233,11 +254,7 @@ impl Tick<'_, '_, '_, '_> {
         else {
             return;
         };
-        let gravity = self
-            .motor
-            .gravity
-            .unwrap_or(self.around.view.gravity.length())
-            * self.motor.gravity_scale;
+        let gravity = self.motor.downward(self.around.view.gravity);
         let (up, mass) = (self.state.up, self.config.mass);
         let full = mass * gravity;
         let was_on_ground = stood_on.state == GroundState::OnGround;

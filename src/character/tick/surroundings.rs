@@ -76,14 +76,12 @@ impl Surroundings<'_, '_, '_> {
     /// them.
     pub fn volume(
         &self,
-        sensors: &[Entity],
+        sensors: impl Iterator<Item = Entity> + Clone,
         last: Option<Entity>,
         is: impl Fn(&<Volume as QueryData>::Item<'_, '_>) -> bool,
     ) -> Option<Entity> {
-        let mut found = sensors
-            .iter()
-            .copied()
-            .filter(|entity| self.volumes.get(*entity).is_ok_and(|volume| is(&volume)));
+        let mut found =
+            sensors.filter(|entity| self.volumes.get(*entity).is_ok_and(|volume| is(&volume)));
         let first = found.clone().min();
         last.filter(|last| found.any(|entity| entity == *last))
             .or(first)

@@ -198,6 +198,31 @@ fn a_free_fall_follows_the_parabola() {
 }
 
 #[test]
+fn negative_gravity_takes_a_character_off_the_ground_at_once() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for scale in [-1.0, -0.1] {
+            let mut sim = Sim::new(hz);
+            sim.floor(0.0);
+            let who = runner(&mut sim, Vec3::ZERO);
+            sim.seconds(1.0);
+            found.holds(format!("{hz} Hz: stands"), sim.state(who).on_ground());
+            edit::<CharacterMotor>(&mut sim, who, |motor| motor.gravity_scale = scale);
+            sim.seconds(1.0);
+            found.within(
+                format!("{hz} Hz, {scale}: falls upwards"),
+                sim.position(who).y,
+                -0.5 * G * scale,
+                0.002,
+            );
+            edit::<CharacterMotor>(&mut sim, who, |motor| motor.gravity_scale = 1.0);
+            sim.seconds(3.0);
+            found.holds(format!("{hz} Hz: stands again"), sim.state(who).on_ground());
+        }
+    }
+}
+
+#[test]
 fn gravity_can_be_set_in_place_of_the_worlds() {
     let mut found = Findings::new();
     for hz in RATES {

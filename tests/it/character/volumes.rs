@@ -139,6 +139,39 @@ fn who_leaves_the_water_walks_again() {
     }
 }
 
+#[test]
+fn who_jumps_out_of_the_water_clears_a_bank_and_straight_up_only_hops() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (bank, wish) in [(0.0, Vec3::NEG_X), (0.3, Vec3::NEG_X), (0.3, Vec3::ZERO)] {
+            let case = format!("{hz} Hz, bank {bank} m, {wish}");
+            let mut sim = Sim::new(hz);
+            pool(&mut sim, Vec3::ZERO);
+            sim.block(
+                Vec3::new(-15.0, bank - 1.0, 0.0),
+                Vec3::new(10.0, 2.0, 40.0),
+            );
+            let who = runner(&mut sim, Vec3::new(-9.0, -2.5, 0.0));
+            sim.seconds(0.2);
+            sim.walk(who, wish);
+            sim.intent(who, |intent| intent.jump = true);
+            let high = highest(&mut sim, who, 2.0);
+            sim.intent(who, |intent| intent.jump = false);
+            sim.walk(who, Vec3::ZERO);
+            sim.seconds(1.0);
+            if wish == Vec3::ZERO {
+                // Half of the jump height above where the waist comes out, 0.9 m up.
+                found.near(format!("{case}: hops"), high, -0.9 + 0.6, 0.1);
+            } else {
+                let at = sim.position(who);
+                found.near(format!("{case}: on the bank"), at.y, bank, 0.01);
+                found.at_most(format!("{case}: behind the edge"), at.x, -10.0);
+                found.near(format!("{case}: highest"), high, 0.6, 0.1);
+            }
+        }
+    }
+}
+
 /// A wall with its face at x = 0 (towards -X), 5 m high, a ladder on it, a platform on top.
 fn ladder(sim: &mut Sim) {
     sim.floor(0.0);
@@ -198,6 +231,40 @@ fn a_ladder_is_climbed_up_at_its_speed_and_left_at_the_top() {
             format!("{hz} Hz: walks"),
             sim.state(who).mode == MovementMode::Walk,
         );
+    }
+}
+
+#[test]
+fn a_ladder_leads_onto_the_ledge_wherever_above_it_its_volume_ends() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for over in [0.0, 0.3, 0.9, 1.6] {
+            for wish in [Vec3::X, Vec3::new(0.6, 0.8, 0.0)] {
+                let case = format!("{hz} Hz, {over} m over the ledge, {wish}");
+                let mut sim = Sim::new(hz);
+                sim.floor(0.0);
+                sim.block(Vec3::new(5.0, 1.5, 0.0), Vec3::new(10.0, 3.0, 10.0));
+                let half = 0.5 * (3.0 + over);
+                sim.spawn((
+                    Collider::cuboid(0.5, half, 0.4),
+                    Sensor,
+                    Ladder,
+                    Transform::from_xyz(-0.4, half, 0.0)
+                        .with_rotation(Quat::from_rotation_y(-core::f32::consts::FRAC_PI_2)),
+                ));
+                let who = runner(&mut sim, Vec3::new(-1.0, 0.0, 0.0));
+                sim.seconds(0.3);
+                sim.walk(who, wish);
+                let high = highest(&mut sim, who, 2.2);
+                sim.walk(who, Vec3::ZERO);
+                sim.seconds(0.7);
+                found.near(format!("{case}: on top"), sim.position(who).y, 3.0, 0.02);
+                found.at_least(format!("{case}: over the edge"), sim.position(who).x, 0.05);
+                // The waist, 0.9 m up, leaves the volume at its end, told a tick later.
+                let end = 3.0 + (over - 0.9f32).max(0.0) + 2.5 * sim.dt();
+                found.at_most(format!("{case}: highest"), high, end + 0.06);
+            }
+        }
     }
 }
 
