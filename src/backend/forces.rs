@@ -86,9 +86,13 @@ impl PhysicsWorldsMut<'_, '_> {
             && force.is_finite()
             && torque.is_finite()
         {
+            if body.is_sleeping() {
+                body.wake_up(true);
+            }
             let before = (body.user_force(), body.user_torque());
-            body.add_force(force, wake);
-            body.add_torque(torque, wake);
+            // Not woken by every force: what is awake must be able to fall asleep.
+            body.add_force(force, false);
+            body.add_torque(torque, false);
             self.forced.remember(link, handle.0, before, body);
         }
     }
