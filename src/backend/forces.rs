@@ -97,6 +97,17 @@ impl PhysicsWorldsMut<'_, '_> {
         }
     }
 
+    /// Wakes a body that sleeps.
+    #[cfg(feature = "vehicle")]
+    pub fn wake_body(&mut self, link: &RapierContextEntityLink, handle: &RapierRigidBodyHandle) {
+        if let Ok((_, _, mut bodies)) = self.contexts.get_mut(link.0)
+            && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
+            && body.is_sleeping()
+        {
+            body.wake_up(true);
+        }
+    }
+
     /// Gives the bodies back the forces that they had before the last tick's pushes, unless the game
     /// gave them others meanwhile.
     pub fn end_forces(&mut self) {

@@ -22,6 +22,8 @@ pub(crate) struct Rigid {
     pub spin: Vec3,
     /// Kilograms.
     pub mass: f32,
+    /// Along the world's axes, 1/kg; 0 along those that are locked.
+    pub inverse_mass: Vec3,
     /// World axes, 1/(kg·m²).
     pub inverse_inertia: Mat3,
     /// What others push it with for the whole tick, newtons and newton-metres, about the centre.
@@ -29,6 +31,13 @@ pub(crate) struct Rigid {
     pub torque: Vec3,
     pub gravity_scale: f32,
     pub sleeping: bool,
+}
+
+impl Rigid {
+    /// 1 along the axes of the world that it can move along, 0 along those that are locked.
+    pub fn free_axes(&self) -> Vec3 {
+        Vec3::select(self.inverse_mass.cmpgt(Vec3::ZERO), Vec3::ONE, Vec3::ZERO)
+    }
 }
 
 /// How a collider that something stands on moves.
@@ -75,6 +84,7 @@ fn rigid(body: &RigidBody) -> Option<Rigid> {
         velocity: body.linvel(),
         spin: body.angvel(),
         mass,
+        inverse_mass: properties.effective_inv_mass,
         inverse_inertia: symmetric(&properties.effective_world_inv_inertia),
         force: body.user_force(),
         torque: body.user_torque(),

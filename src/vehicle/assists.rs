@@ -1,5 +1,5 @@
 //! Help for the driver: components that change what the driver asks, never the physics. Leave one out
-//! and it costs nothing.
+//! and it costs nothing. One with a value out of its range is named in a warning and does nothing.
 
 use bevy::prelude::*;
 
@@ -8,7 +8,7 @@ use bevy::prelude::*;
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct AntiLockBrakes {
-    /// Slip ratio that is held, `0..1`, above 0. Near the peak of the tyre's curve it stops shortest;
+    /// Slip ratio that is held, above 0 and at most 1. Near the peak of the tyre's curve it stops shortest;
     /// at 1 wheels lock.
     pub slip: f32,
     /// Speed below which wheels may lock, metres per second, at least 0.
@@ -98,7 +98,36 @@ impl Default for LeanControl {
     }
 }
 
+fn at_least_0(value: f32) -> bool {
+    value >= 0.0 && value.is_finite()
+}
+
+impl StabilityControl {
+    pub(crate) fn is_sound(&self) -> bool {
+        at_least_0(self.tolerance) && at_least_0(self.strength)
+    }
+}
+
+impl HillHold {
+    pub(crate) fn is_sound(&self) -> bool {
+        at_least_0(self.time)
+    }
+}
+
+impl LeanControl {
+    pub(crate) fn is_sound(&self) -> bool {
+        self.frequency > 0.0
+            && self.frequency.is_finite()
+            && at_least_0(self.damping)
+            && (0.0..core::f32::consts::FRAC_PI_2).contains(&self.max_lean)
+    }
+}
+
 impl AntiLockBrakes {
+    pub(crate) fn is_sound(&self) -> bool {
+        self.slip > 0.0 && self.slip <= 1.0 && at_least_0(self.least_speed)
+    }
+
     /// The part of the brake to leave on, from the last one, after a tick of `dt` at a slip ratio.
     pub(crate) fn part(&self, last: f32, slip: f32, speed: f32, dt: f32) -> f32 {
         if speed < self.least_speed {
@@ -112,6 +141,10 @@ impl AntiLockBrakes {
 }
 
 impl TractionControl {
+    pub(crate) fn is_sound(&self) -> bool {
+        self.slip > 0.0 && self.slip.is_finite()
+    }
+
     /// The part of the throttle to leave, from the last one, after a tick of `dt` at the greatest slip
     /// of a driven wheel.
     pub(crate) fn part(&self, last: f32, slip: f32, dt: f32) -> f32 {

@@ -2,6 +2,7 @@
 //! unchanging world, then write all forces in the order of the vehicles, so that neither threads nor
 //! the order of spawning matter.
 
+use arrayvec::ArrayVec;
 use bevy::{ecs::batching::BatchingStrategy, prelude::*, utils::Parallel};
 use bevy_rapier3d::prelude::CollisionGroups;
 
@@ -34,7 +35,7 @@ pub(super) fn solve_vehicles(
     time: Res<Time>,
     worlds: PhysicsWorlds,
     surfaces: Surfaces,
-    wheels: Query<&Wheel>,
+    wheels: Query<(Entity, &Wheel)>,
     mut vehicles: Query<(
         (&Vehicle, &VehicleIntent, &Wheels),
         (
@@ -75,12 +76,18 @@ pub(super) fn solve_vehicles(
                 report.clear();
                 return;
             }
-            let Some(view) = worlds.of(link) else { return };
-            if !view.active {
+            let Some(view) = worlds.of(link).filter(|view| view.active) else {
                 report.clear();
                 return;
-            }
-            if tick::rests(&view, handle, dt, intent, &state, report) {
+            };
+            if tick::rests(
+                &view,
+                handle,
+                dt,
+                intent,
+                state.bypass_change_detection(),
+                report,
+            ) {
                 report.clear();
                 report.asleep = true;
                 if !telemetry.asleep {
@@ -89,10 +96,14 @@ pub(super) fn solve_vehicles(
                 return;
             }
             let mut list = WheelList::new();
-            for wheel in wheels.iter_many(tied.iter()) {
-                if list.try_push(wheel).is_err() {
-                    break;
-                }
+            let mut entities = ArrayVec::new();
+            for (entity, wheel) in wheels.iter_many(tied.iter()).take(Wheel::MOST) {
+                list.push(wheel);
+                entities.push(entity);
+            }
+            if list.is_empty() {
+                report.clear();
+                return;
             }
             let surroundings = Surroundings {
                 view,
@@ -101,13 +112,14 @@ pub(super) fn solve_vehicles(
                 groups: groups.copied(),
                 surfaces: &surfaces,
                 wheels: list,
+                wheel_entities: entities,
                 probe_every: interval.map_or(1, |i| i.ticks),
                 assists: Assists {
-                    abs,
-                    traction,
-                    stability,
-                    hill,
-                    lean,
+                    abs: abs.filter(|a| a.is_sound()),
+                    traction: traction.filter(|a| a.is_sound()),
+                    stability: stability.filter(|a| a.is_sound()),
+                    hill: hill.filter(|a| a.is_sound()),
+                    lean: lean.filter(|a| a.is_sound()),
                 },
             };
             scratch.scope(|scratch| {
@@ -129,20 +141,30 @@ pub(super) fn solve_vehicles(
     );
 }
 
+/// What acts on the physics world.
+type Acting = (With<Vehicle>, With<Wheels>);
+
 /// Writes what the ticks decided.
 pub(super) fn apply_forces(
     mut worlds: PhysicsWorldsMut,
-    vehicles: Query<(
-        Entity,
-        &RapierContextEntityLink,
-        &RapierRigidBodyHandle,
-        &VehicleReport,
-    )>,
+    mut vehicles: Query<
+        (
+            Entity,
+            &RapierContextEntityLink,
+            &RapierRigidBodyHandle,
+            &mut VehicleReport,
+        ),
+        Acting,
+    >,
     mut pushes: Local<Vec<(Entity, RapierContextEntityLink, GroundPush)>>,
 ) {
     pushes.clear();
     pushes.reserve(64);
-    for (entity, link, handle, report) in &vehicles {
+    for (entity, link, handle, mut report) in &mut vehicles {
+        let report = report.bypass_change_detection();
+        if core::mem::take(&mut report.wake) {
+            worlds.wake_body(link, handle);
+        }
         if !report.solved {
             continue;
         }
@@ -153,6 +175,17 @@ pub(super) fn apply_forces(
     pushes.sort_by_key(|(entity, ..)| *entity);
     for (_, link, p) in pushes.iter() {
         worlds.push_body(link, p.body, Vec3::ZERO, p.force, p.point, p.wake);
+    }
+}
+
+/// Lets the body of what has just lost its wheels, or is no vehicle any more, fall.
+pub(super) fn let_fall<C: Component>(
+    lost: On<Remove, C>,
+    bodies: Query<(&RapierContextEntityLink, &RapierRigidBodyHandle), With<VehicleReport>>,
+    mut worlds: PhysicsWorldsMut,
+) {
+    if let Ok((link, handle)) = bodies.get(lost.entity) {
+        worlds.wake_body(link, handle);
     }
 }
 

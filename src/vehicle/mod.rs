@@ -125,7 +125,13 @@ impl Plugin for VehiclePlugin {
             .add_systems(
                 FixedPostUpdate,
                 (
-                    (prepare::check_configs, prepare::set_masses)
+                    (
+                        prepare::check_configs,
+                        prepare::check_helpers,
+                        prepare::check_surfaces,
+                        prepare::set_masses,
+                        prepare::unset_masses,
+                    )
                         .chain()
                         .in_set(VehicleSystems::Prepare),
                     (
@@ -147,6 +153,8 @@ impl Plugin for VehiclePlugin {
                 )
                     .run_if(any_with_component::<Vehicle>),
             )
+            .add_observer(drive::let_fall::<Vehicle>)
+            .add_observer(drive::let_fall::<Wheels>)
             // Also when the last vehicle is gone.
             .add_systems(
                 FixedPostUpdate,

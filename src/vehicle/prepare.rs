@@ -4,8 +4,11 @@ use bevy::prelude::*;
 use bevy_rapier3d::prelude::{AdditionalMassProperties, ColliderMassProperties, MassProperties};
 
 use super::{
+    assists::{AntiLockBrakes, HillHold, LeanControl, StabilityControl, TractionControl},
     config::{Vehicle, VehicleMass},
     report::VehicleReport,
+    state::VehicleState,
+    surface::{RoadVelocity, SurfaceFriction},
     validate,
     wheel::{Wheel, WheelOf, Wheels},
 };
@@ -13,8 +16,11 @@ use crate::validate::{Problem, warn_bad};
 
 /// Checks what is new or changed.
 pub(super) fn check_configs(
-    changed_wheels: Query<&WheelOf, Or<(Changed<Wheel>, Changed<WheelOf>)>>,
+    changed_wheels: Query<(Entity, &WheelOf), Or<(Changed<Wheel>, Changed<WheelOf>)>>,
     changed: Query<Entity, Or<(Changed<Vehicle>, Changed<Wheels>, Changed<VehicleMass>)>>,
+    mut bare: RemovedComponents<Wheel>,
+    ties: Query<&WheelOf>,
+    loose: Query<Entity, (Added<Wheel>, Without<WheelOf>)>,
     mut vehicles: Query<(
         &Vehicle,
         Option<&VehicleMass>,
@@ -25,7 +31,18 @@ pub(super) fn check_configs(
     mut stirred: Local<Vec<Entity>>,
 ) {
     stirred.clear();
-    stirred.extend(changed_wheels.iter().map(|of| of.0));
+    for wheel in &loose {
+        tracing::warn!("{wheel}: Wheel needs a WheelOf that names its vehicle; it does nothing");
+    }
+    for (wheel, of) in &changed_wheels {
+        if vehicles.contains(of.0) {
+            stirred.push(of.0);
+        } else {
+            let it = of.0;
+            tracing::warn!("{wheel}: WheelOf is {it}, but needs a Vehicle; the wheel does nothing");
+        }
+    }
+    stirred.extend(bare.read().filter_map(|wheel| Some(ties.get(wheel).ok()?.0)));
     stirred.extend(changed.iter());
     stirred.sort_unstable();
     stirred.dedup();
@@ -58,6 +75,7 @@ pub(super) fn check_configs(
         }
         if let Some((who, Problem { field, value, need })) = problems.first() {
             report.valid = false;
+            report.wake = true;
             let then = "the vehicle has no wheels until then";
             warn_bad(*who, field, value, need, then);
         }
@@ -83,5 +101,88 @@ pub(super) fn set_masses(
                 principal_inertia: mass.inertia,
             }),
         ));
+    }
+}
+
+/// Gives bodies the masses of their colliders again.
+pub(super) fn unset_masses(
+    mut commands: Commands,
+    mut lost: RemovedComponents<VehicleMass>,
+    vehicles: Query<(), (With<Vehicle>, Without<VehicleMass>)>,
+) {
+    for entity in lost.read() {
+        if vehicles.contains(entity) {
+            commands
+                .entity(entity)
+                .remove::<(ColliderMassProperties, AdditionalMassProperties)>();
+        }
+    }
+}
+
+/// Names helpers with values that they cannot work with.
+pub(super) fn check_helpers(
+    abs: Query<(Entity, &AntiLockBrakes), Changed<AntiLockBrakes>>,
+    traction: Query<(Entity, &TractionControl), Changed<TractionControl>>,
+    stability: Query<(Entity, &StabilityControl), Changed<StabilityControl>>,
+    hill: Query<(Entity, &HillHold), Changed<HillHold>>,
+    lean: Query<(Entity, &LeanControl), Changed<LeanControl>>,
+) {
+    for (entity, helper) in abs.iter().filter(|(_, h)| !h.is_sound()) {
+        refuse(entity, helper, "slip above 0 and at most 1, least_speed at least 0");
+    }
+    for (entity, helper) in traction.iter().filter(|(_, h)| !h.is_sound()) {
+        refuse(entity, helper, "a finite slip above 0");
+    }
+    for (entity, helper) in stability.iter().filter(|(_, h)| !h.is_sound()) {
+        refuse(entity, helper, "finite numbers of at least 0");
+    }
+    for (entity, helper) in hill.iter().filter(|(_, h)| !h.is_sound()) {
+        refuse(entity, helper, "a finite time of at least 0");
+    }
+    for (entity, helper) in lean.iter().filter(|(_, h)| !h.is_sound()) {
+        refuse(
+            entity,
+            helper,
+            "a frequency above 0, damping at least 0, max_lean from 0 to below π/2",
+        );
+    }
+}
+
+fn refuse(entity: Entity, value: &dyn core::fmt::Debug, need: &str) {
+    tracing::warn!("{entity}: {value:?} needs {need}; it does nothing until then");
+}
+
+/// Names surfaces with values that mean nothing, and wakes who sleeps on one that changed.
+pub(super) fn check_surfaces(
+    friction: Query<(Entity, &SurfaceFriction), Changed<SurfaceFriction>>,
+    roads: Query<(Entity, &RoadVelocity), Changed<RoadVelocity>>,
+    mut plain: RemovedComponents<SurfaceFriction>,
+    mut still: RemovedComponents<RoadVelocity>,
+    mut vehicles: Query<(&VehicleState, &mut VehicleReport)>,
+    mut changed: Local<Vec<Entity>>,
+) {
+    changed.clear();
+    for (entity, surface) in &friction {
+        if !surface.is_sound() {
+            refuse(entity, surface, "finite numbers of at least 0");
+        }
+        changed.push(entity);
+    }
+    for (entity, road) in &roads {
+        if !road.is_sound() {
+            refuse(entity, road, "finite numbers");
+        }
+        changed.push(entity);
+    }
+    changed.extend(plain.read().chain(still.read()));
+    if changed.is_empty() {
+        return;
+    }
+    changed.sort_unstable();
+    for (state, mut report) in &mut vehicles {
+        let stands_on = |ground| changed.binary_search(&ground).is_ok();
+        if state.wheels.iter().any(|w| w.ground.is_some_and(stands_on)) {
+            report.bypass_change_detection().changed = true;
+        }
     }
 }

@@ -9,7 +9,6 @@ use super::{
     },
     output::WheelState,
     report::{VehicleReport, WheelEvent},
-    state::VehicleState,
     wheel::Wheels,
 };
 
@@ -19,12 +18,18 @@ pub(super) fn write_wheels(
     mut wheels: Query<&mut WheelState>,
 ) {
     for (report, tied) in &vehicles {
-        if !report.solved {
-            continue;
-        }
-        for (wheel, out) in tied.iter().zip(&report.outputs) {
-            if let Ok(mut state) = wheels.get_mut(wheel) {
-                *state = *out;
+        if report.solved {
+            for (wheel, out) in report.wheels.iter().zip(&report.outputs) {
+                if let Ok(mut state) = wheels.get_mut(*wheel) {
+                    *state = *out;
+                }
+            }
+        } else if !report.asleep {
+            // A body without wheels: they touch nothing and carry nothing.
+            for wheel in tied.iter() {
+                if let Ok(mut state) = wheels.get_mut(wheel) {
+                    state.set_if_neq(WheelState::default());
+                }
             }
         }
     }
@@ -33,12 +38,15 @@ pub(super) fn write_wheels(
 /// Triggers what happened in the tick.
 pub(super) fn trigger_events(
     mut commands: Commands,
-    vehicles: Query<(Entity, &VehicleReport, &VehicleState, &Wheels)>,
+    mut vehicles: Query<(Entity, &mut VehicleReport)>,
 ) {
-    for (entity, report, _, tied) in &vehicles {
+    for (entity, mut report) in &mut vehicles {
         if !report.solved {
             continue;
         }
+        let report = report.bypass_change_detection();
+        // What is not solved in the next tick, for whatever reason, must not act or happen again.
+        report.solved = false;
         if let Some(shift) = report.shift {
             commands.trigger(GearShifted {
                 entity,
@@ -50,7 +58,7 @@ pub(super) fn trigger_events(
             commands.trigger(EngineStalled { entity });
         }
         for (index, event) in &report.events {
-            let Some(wheel) = tied.iter().nth(*index) else {
+            let Some(&wheel) = report.wheels.get(*index) else {
                 continue;
             };
             match *event {

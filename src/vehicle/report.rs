@@ -4,7 +4,7 @@
 use arrayvec::ArrayVec;
 use bevy::prelude::*;
 
-use super::{drivetrain::Shift, intent::VehicleIntent, output::WheelState, solve::MOST_WHEELS};
+use super::{drivetrain::Shift, output::WheelState, solve::MOST_WHEELS};
 
 /// The decisions of one tick.
 #[derive(Component)]
@@ -16,10 +16,10 @@ pub(crate) struct VehicleReport {
     pub asleep: bool,
     /// Whether something about the vehicle changed that a sleeper has to look at.
     pub changed: bool,
-    /// Time for which it is not left to sleep, seconds.
-    pub stay_awake: f32,
-    /// What the last solve was asked.
-    pub asked: VehicleIntent,
+    /// Whether its body has to wake up although nothing is solved.
+    pub wake: bool,
+    /// The wheels of the tick, in the order of everything else here.
+    pub wheels: ArrayVec<Entity, MOST_WHEELS>,
     /// On the chassis, about its centre of mass, newtons and newton-metres.
     pub force: Vec3,
     pub torque: Vec3,
@@ -35,8 +35,6 @@ pub(crate) struct VehicleReport {
     pub shares: ArrayVec<f32, MOST_WHEELS>,
     pub shares_key: Option<(f32, Vec3, usize)>,
     pub reshare: bool,
-    /// Height of the centre of mass above the ground in the last tick, metres.
-    pub height: f32,
 }
 
 impl Default for VehicleReport {
@@ -46,8 +44,8 @@ impl Default for VehicleReport {
             solved: false,
             asleep: false,
             changed: true,
-            stay_awake: 0.0,
-            asked: VehicleIntent::default(),
+            wake: false,
+            wheels: ArrayVec::new(),
             force: Vec3::ZERO,
             torque: Vec3::ZERO,
             pushes: ArrayVec::new(),
@@ -60,7 +58,6 @@ impl Default for VehicleReport {
             shares: ArrayVec::new(),
             shares_key: None,
             reshare: true,
-            height: 0.0,
         }
     }
 }

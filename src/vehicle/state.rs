@@ -6,6 +6,8 @@ use bevy::{
     prelude::*,
 };
 
+use super::intent::VehicleIntent;
+
 /// The state of a vehicle and its wheels. The same state, body, intents and world give the same bits.
 #[derive(Component, Reflect, Clone, Debug, PartialEq, MapEntities)]
 #[reflect(Component, Default, Debug, PartialEq, Clone, MapEntities)]
@@ -36,7 +38,14 @@ pub struct VehicleState {
     pub limiting: bool,
     /// Ticks since the ground was last looked for; see [`ProbeInterval`](super::ProbeInterval).
     pub probe_age: u8,
-    /// The wheels, in the order of [`Wheels`](super::Wheels).
+    /// Velocity of the ground that the vehicle last stood on, world axes, metres per second. Speeds
+    /// are measured against it, so that a deck, a train or a belt is ground like any other.
+    pub ground_velocity: Vec3,
+    /// Time for which the vehicle is not left to sleep, seconds.
+    pub stay_awake: f32,
+    /// What the last tick was asked: a change of it wakes a sleeper.
+    pub asked: VehicleIntent,
+    /// The wheels. Each finds its own by [`WheelDynamics::wheel`].
     #[entities]
     pub wheels: Vec<WheelDynamics>,
 }
@@ -56,6 +65,9 @@ impl Default for VehicleState {
             hill_hold: 0.0,
             limiting: false,
             probe_age: 0,
+            ground_velocity: Vec3::ZERO,
+            stay_awake: 0.0,
+            asked: VehicleIntent::default(),
             wheels: Vec::new(),
         }
     }
@@ -66,6 +78,9 @@ impl Default for VehicleState {
 #[reflect(Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelDynamics {
+    /// Whose state this is; `None` is taken by the wheel at its place in [`Wheels`](super::Wheels).
+    #[entities]
+    pub wheel: Option<Entity>,
     /// Spin, radians per second, positive rolls forward.
     pub spin: f32,
     /// Angle of the spin, radians, `0..2π`.
@@ -102,6 +117,7 @@ pub struct WheelDynamics {
 impl Default for WheelDynamics {
     fn default() -> Self {
         Self {
+            wheel: None,
             spin: 0.0,
             angle: 0.0,
             compression: 0.0,
@@ -118,6 +134,77 @@ impl Default for WheelDynamics {
             bottomed: false,
         }
     }
+}
+
+/// No value of a state is beyond this in the units it has; what is was never computed here.
+const MOST: f32 = 1.0e9;
+
+impl VehicleState {
+    /// Gives each of these wheels its own state, in their order, whichever were taken away, added or
+    /// put in another order since the last tick.
+    pub(crate) fn follow(&mut self, wheels: &[Entity]) {
+        let fits = self.wheels.len() == wheels.len()
+            && self.wheels.iter().zip(wheels).all(|(s, w)| s.wheel == Some(*w));
+        if fits {
+            return;
+        }
+        let before = core::mem::take(&mut self.wheels);
+        self.wheels.extend(wheels.iter().enumerate().map(|(i, wheel)| {
+            let own = before.iter().find(|s| s.wheel == Some(*wheel));
+            let nobodys = before.get(i).filter(|s| s.wheel.is_none());
+            WheelDynamics {
+                wheel: Some(*wheel),
+                ..own.or(nobodys).copied().unwrap_or_default()
+            }
+        }));
+    }
+
+    /// Replaces what is no number, as a broken message may bring it, by what a new vehicle has.
+    pub(crate) fn heal(&mut self) {
+        let scalars = [
+            self.engine_speed,
+            self.shifting,
+            self.gear_age,
+            self.steer_angle,
+            self.clutch_torque,
+            self.traction_cut,
+            self.hill_hold,
+            self.stay_awake,
+        ];
+        if !(sound(&scalars) && sound(&self.ground_velocity.to_array())) {
+            *self = Self {
+                gear: self.gear,
+                asked: self.asked,
+                wheels: core::mem::take(&mut self.wheels),
+                ..Self::default()
+            };
+        }
+        for wheel in &mut self.wheels {
+            let scalars = [
+                wheel.spin,
+                wheel.angle,
+                wheel.compression,
+                wheel.compression_rate,
+                wheel.slip,
+                wheel.abs,
+                wheel.air_time,
+                wheel.bristle.x,
+                wheel.bristle.y,
+                wheel.expected.x,
+                wheel.expected.y,
+            ];
+            if !(sound(&scalars) && sound(&wheel.ground_force.to_array())) {
+                *wheel = WheelDynamics {
+                    wheel: wheel.wheel,
+                    ..WheelDynamics::default()
+                };
+            }
+        }
+    }
+}
+
+fn sound(values: &[f32]) -> bool {
+    values.iter().all(|v| v.abs() < MOST)
 }
 
 /// A plane of ground, in the frame of its collider.

@@ -4,7 +4,8 @@ use bevy::prelude::*;
 
 /// Friction of a collider for tyres: scales each tyre's own coefficient. 1 is dry asphalt, 0.7 wet
 /// asphalt, 0.6 gravel, 0.1 ice, 0 no friction at all. Without it a collider counts as 1, whatever
-/// its Rapier friction, which is that of bodies against bodies.
+/// its Rapier friction, which is that of bodies against bodies. With a value out of its range it
+/// counts as absent, and is named in a warning.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -35,7 +36,7 @@ impl SurfaceFriction {
 }
 
 /// Carries vehicles that stand on this collider, as a conveyor belt does, while the collider itself
-/// stands still.
+/// stands still. With a value that is no number it counts as absent, and is named in a warning.
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -44,4 +45,17 @@ pub struct RoadVelocity {
     pub linear: Vec3,
     /// Turning of the surface about the collider's origin, in its own axes, radians per second.
     pub angular: Vec3,
+}
+
+impl SurfaceFriction {
+    pub(crate) fn is_sound(&self) -> bool {
+        let sound = |v: f32| v >= 0.0 && v.is_finite();
+        sound(self.friction) && sound(self.rolling_resistance)
+    }
+}
+
+impl RoadVelocity {
+    pub(crate) fn is_sound(&self) -> bool {
+        self.linear.is_finite() && self.angular.is_finite()
+    }
 }

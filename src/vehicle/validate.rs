@@ -53,6 +53,16 @@ pub(super) fn vehicle(config: &Vehicle) -> Option<Problem> {
         check.not_negative("Vehicle::steering.speed_curve.speed", p.speed);
         check.part("Vehicle::steering.speed_curve.part", p.part);
     }
+    let ordered = steering
+        .speed_curve
+        .windows(2)
+        .all(|w| w[0].speed < w[1].speed);
+    check.that(
+        ordered,
+        "Vehicle::steering.speed_curve",
+        steering.speed_curve.len() as f32,
+        "points in the order of their speeds",
+    );
     check.not_negative("Vehicle::brakes.torque", config.brakes.torque);
     check.part("Vehicle::brakes.balance", config.brakes.balance);
     check.not_negative("Vehicle::brakes.hand_torque", config.brakes.hand_torque);
@@ -63,7 +73,9 @@ pub(super) fn vehicle(config: &Vehicle) -> Option<Problem> {
         check.not_negative("Vehicle::aero.drag_area", aero.drag_area);
         let down = aero.downforce_area;
         check.finite("Vehicle::aero.downforce_area", down.x + down.y);
-        check.finite_vec("Vehicle::aero.air_control", aero.air_control);
+        check.not_negative("Vehicle::aero.air_control.x", aero.air_control.x);
+        check.not_negative("Vehicle::aero.air_control.y", aero.air_control.y);
+        check.not_negative("Vehicle::aero.air_control.z", aero.air_control.z);
     }
     let ok = (0.0..right_angle).contains(&config.max_ground_angle);
     check.that(

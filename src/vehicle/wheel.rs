@@ -7,8 +7,9 @@ use super::{output::WheelState, present::WheelPose, suspension::Suspension, tire
 /// One wheel of a vehicle. Spawn it with [`WheelOf`] its vehicle; at most
 /// [`Wheel::MOST`](Self::MOST) to a vehicle.
 ///
-/// Its [`Transform`] shows travel, steering and spin: in the vehicle's axes when it is the vehicle's
-/// child, else in the world's. A model should have its axle along local `X`.
+/// Its [`Transform`] is written each frame, so that it is seen with its travel, steering and spin,
+/// wherever it hangs in the hierarchy: below the vehicle, below a part of its model, or nowhere. A
+/// model should have its axle along local `X`.
 #[derive(Component, Reflect, Clone, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]

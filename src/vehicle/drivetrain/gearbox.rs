@@ -53,6 +53,8 @@ impl Box {
         slipping: bool,
         dt: f32,
     ) -> Option<Shift> {
+        // A gear that a change of the config took away.
+        self.gear = self.gear.clamp(-1, config.forward.len().min(100) as i8);
         if self.shifting > 0.0 {
             self.shifting = (self.shifting - dt).max(0.0);
             // What is left of less than half a tick is rounding.

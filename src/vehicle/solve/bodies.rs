@@ -13,8 +13,8 @@ pub(crate) struct Chassis {
     /// With all impulses of the tick so far, gravity included.
     pub velocity: Vec3,
     pub spin: Vec3,
-    /// 1/kg.
-    pub inverse_mass: f32,
+    /// Along the world's axes, 1/kg.
+    pub inverse_mass: Vec3,
     /// World axes, 1/(kg·m²).
     pub inverse_inertia: Mat3,
 }
@@ -35,7 +35,10 @@ pub(crate) struct GroundBody {
     /// did, so that a body on a floor is not taken for something that gives way.
     pub velocity: Vec3,
     pub spin: Vec3,
-    pub inverse_mass: f32,
+    /// Kilograms.
+    pub mass: f32,
+    /// Along the world's axes, 1/kg.
+    pub inverse_mass: Vec3,
     pub inverse_inertia: Mat3,
 }
 
@@ -82,13 +85,13 @@ impl Contact<'_> {
         grounds: &[GroundBody],
     ) -> f32 {
         let turned = chassis.inverse_inertia * self.arm.cross(from);
-        let mut sum = from.dot(to) * chassis.inverse_mass + other.arm.cross(to).dot(turned);
+        let mut sum = (from * chassis.inverse_mass).dot(to) + other.arm.cross(to).dot(turned);
         if let (Some((a, arm)), Some((b, other_arm))) = (self.ground, other.ground)
             && a == b
         {
             let body = &grounds[a];
             let turned = body.inverse_inertia * arm.cross(from);
-            sum += from.dot(to) * body.inverse_mass + other_arm.cross(to).dot(turned);
+            sum += (from * body.inverse_mass).dot(to) + other_arm.cross(to).dot(turned);
         }
         sum
     }

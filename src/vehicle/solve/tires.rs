@@ -123,7 +123,8 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
         if compliance > 0.0 {
             let slope = (1.0 + stiffness * secant.slope).max(0.3);
             next = combined + (reached - combined) * (1.0 + stiffness / compliance) / slope;
-            next = next.clamp(0.0, patch.combined(drive, contact.speed));
+            // No `clamp`: that panics where its limits are no numbers.
+            next = next.min(patch.combined(drive, contact.speed)).max(0.0);
             open = (next - combined).abs() * secant.slope.abs() * dt;
         }
     }

@@ -30,6 +30,9 @@ pub(super) fn brakes(
     speed: f32,
 ) -> BrakeTorques {
     let mut pedal = asked.brake;
+    if s.assists.hill.is_none() {
+        state.hill_hold = 0.0;
+    }
     if let Some(hill) = s.assists.hill {
         if asked.brake > 0.05 && speed.abs() < 0.5 {
             state.hill_hold = hill.time;
@@ -37,7 +40,7 @@ pub(super) fn brakes(
             state.hill_hold = 0.0;
         }
         if state.hill_hold > 0.0 && asked.brake <= 0.05 {
-            state.hill_hold = (state.hill_hold - s.dt).max(0.0);
+            state.hill_hold = (state.hill_hold.min(hill.time) - s.dt).max(0.0);
             pedal = 1.0;
         }
     }
@@ -79,7 +82,7 @@ pub(super) fn brakes(
         let mut holding_back = false;
         match s.assists.abs {
             Some(abs) if torque > 0.0 && found[i].contact.is_some() => {
-                let along = rigid.velocity.dot(axes.forward).abs().max(0.1);
+                let along = speed.abs().max(0.1);
                 let slip = (last.spin * wheel.radius).abs() / along - 1.0;
                 last.abs = abs.part(last.abs, slip, along, s.dt);
                 holding_back = last.abs < 0.98;

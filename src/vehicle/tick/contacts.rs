@@ -11,6 +11,7 @@ use crate::{
         report::VehicleReport,
         solve::{Contact, GroundBody, MOST_WHEELS},
         state::VehicleState,
+        surface::SurfaceFriction,
     },
 };
 
@@ -40,8 +41,9 @@ pub(super) fn build<'a>(
             continue;
         };
         let (friction, road) = s.surfaces.get(touch.entity).unwrap_or_default();
-        let friction = friction.copied().unwrap_or_default();
-        let road = road.zip(s.view.collider_pose(touch.entity));
+        let friction = friction.copied().filter(SurfaceFriction::is_sound);
+        let friction = friction.unwrap_or_default();
+        let road = road.filter(|r| r.is_sound()).zip(s.view.collider_pose(touch.entity));
         let ground_at = |point: Vec3| {
             let mut velocity = motion.velocity_at(point);
             if let Some((road, (origin, rotation))) = road {
@@ -70,7 +72,8 @@ pub(super) fn build<'a>(
                         entity: body,
                         velocity: Vec3::ZERO,
                         spin: Vec3::ZERO,
-                        inverse_mass: heavier / rigid.mass,
+                        mass: rigid.mass,
+                        inverse_mass: rigid.inverse_mass * heavier,
                         inverse_inertia: rigid.inverse_inertia * heavier,
                     });
                     grounds.len() - 1
@@ -137,7 +140,7 @@ pub(super) fn build<'a>(
             bar: None,
             lone_bar: 0.0,
             tire: &wheel.tire,
-            surface: friction.friction.max(0.0),
+            surface: friction.friction,
             radius: wheel.radius,
             bristle,
             turn_slip,

@@ -11,6 +11,7 @@ use crate::vehicle::{
     report::VehicleReport,
     solve::{MOST_WHEELS, Row, Spin},
     state::VehicleState,
+    surface::SurfaceFriction,
 };
 
 /// What later has to be read out of the solved shafts.
@@ -54,8 +55,9 @@ pub(super) fn build(
         let surface = found[i]
             .contact
             .and_then(|t| s.surfaces.get(t.entity).ok()?.0.copied())
+            .filter(SurfaceFriction::is_sound)
             .unwrap_or_default();
-        let rolling = wheel.tire.rolling_resistance * surface.rolling_resistance.max(0.0);
+        let rolling = wheel.tire.rolling_resistance * surface.rolling_resistance;
         let torque = brakes.torque[i] + rolling * load * wheel.radius;
         line.brakes[i] = spin.row(Row::brake(i, f64::from(torque * dt)));
     }
@@ -96,7 +98,8 @@ fn drive(
 
     let mut gearbox = GearboxState {
         gear: state.gear,
-        shifting: state.shifting,
+        // Less than whole when the config changed meanwhile.
+        shifting: state.shifting.min(drivetrain.gearbox.shift_time),
         settled: state.gear_age,
     };
     let per_gear = gearbox.ratio(&drivetrain.gearbox) * drivetrain.final_drive;

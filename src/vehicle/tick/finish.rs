@@ -1,87 +1,20 @@
-//! Forces from outside before the solve; forces, state and telemetry after it.
+//! Forces, state and telemetry after the solve.
 
 use bevy::{math::ops, prelude::*};
 
-use super::{Axes, Found, Surroundings, brakes::BrakeTorques, driveline::Driveline};
+use super::{
+    Axes, Found, Surroundings, brakes::BrakeTorques, driveline::Driveline, outside::Outside,
+};
 use crate::{
     backend::rigid::Rigid,
     vehicle::{
-        config::Vehicle,
         drivetrain::from_rpm,
-        intent::VehicleIntent,
         output::{VehicleTelemetry, WheelContact, WheelState},
         report::{GroundPush, VehicleReport, WheelEvent},
         solve::{Chassis, Contact, GroundBody, Spin},
         state::VehicleState,
     },
 };
-
-/// Air and control, about the centre of mass, world axes.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Outside {
-    pub force: Vec3,
-    pub torque: Vec3,
-    pub drag: f32,
-}
-
-pub(super) fn outside_forces(
-    s: &Surroundings,
-    config: &Vehicle,
-    report: &VehicleReport,
-    rigid: &Rigid,
-    axes: &Axes,
-    asked: &VehicleIntent,
-    speed: f32,
-    grounded: usize,
-) -> Outside {
-    let mut out = Outside::default();
-    if let Some(aero) = &config.aero {
-        let air = aero.forces(rigid.velocity, axes.forward, rigid.mass, s.dt);
-        out.force += air.drag;
-        out.drag = air.drag.length();
-        let (mut front, mut rear) = (0.0f32, 0.0f32);
-        for wheel in &s.wheels {
-            front = front.min(wheel.attachment.z);
-            rear = rear.max(wheel.attachment.z);
-        }
-        for (z, down) in [(front, air.down.x), (rear, air.down.y)] {
-            let force = axes.up * -down;
-            let at = rigid.position + rigid.rotation * (Vec3::Z * z) - rigid.center;
-            out.force += force;
-            out.torque += at.cross(force);
-        }
-        if grounded == 0 {
-            let c = aero.air_control * asked.air;
-            out.torque += axes.right * c.x - axes.up * c.y + axes.forward * c.z;
-        }
-    }
-    if let Some(lean) = s.assists.lean
-        && grounded > 0
-    {
-        // The lean at which gravity and centrifugal force balance.
-        let turning = -rigid.spin.dot(axes.up) * speed;
-        let g = s.view.gravity.length().max(0.1);
-        let wanted = ops::atan(turning / g).clamp(-lean.max_lean, lean.max_lean);
-        let up = -s.view.gravity.normalize_or(Vec3::NEG_Y);
-        let level = axes.forward.cross(up).normalize_or(axes.right);
-        let now = ops::atan2(-axes.right.dot(up), axes.right.dot(level));
-        let rate = rigid.spin.dot(axes.forward);
-        // About the contact line, not the centre: the wheels hold the foot.
-        let height = report.height;
-        let turned = rigid.inverse_inertia * axes.forward;
-        let inertia = 1.0 / turned.dot(axes.forward).max(1.0e-9) + rigid.mass * height * height;
-        let w = core::f32::consts::TAU * lean.frequency;
-        let (k, c) = (w * w, 2.0 * lean.damping * w);
-        // Implicit in the lean's own motion.
-        let soft = 1.0 + s.dt * (c + s.dt * k);
-        let torque = inertia * (k * (wanted - now - s.dt * rate) - c * rate) / soft;
-        // What falls over by gravity is held as well.
-        let held =
-            rigid.mass * g * height * ops::sin(now) - rigid.mass * height * turning * ops::cos(now);
-        out.torque += axes.forward * (torque - held);
-    }
-    out
-}
 
 /// Everything that the solve and its preparation left.
 pub(super) struct Solved<'a, 'c> {
@@ -95,7 +28,6 @@ pub(super) struct Solved<'a, 'c> {
     pub line: &'a Driveline,
     pub outside: &'a Outside,
     pub brakes: &'a BrakeTorques,
-    pub speed: f32,
 }
 
 pub(super) fn finish(
@@ -142,6 +74,7 @@ pub(super) fn finish(
         .map_or(0.0, |row| solved.spin.impulse(row) as f32 / dt);
     state.clutch_torque = finite(clutch);
     let mut landed = [false; super::MOST_WHEELS];
+    let (mut road, mut road_weight) = (Vec3::ZERO, 0.0f32);
     for contact in solved.contacts {
         let i = contact.wheel;
         let wheel = s.wheels[i];
@@ -172,6 +105,11 @@ pub(super) fn finish(
         last.slip = contact.combined;
         last.ground_force = -pushed;
         let load = contact.push / dt;
+        // What gives way under the vehicle is less of a ground to it.
+        let body = contact.ground.map(|(index, _)| &solved.grounds[index]);
+        let weight = load * body.map_or(1.0, |g| g.mass / (g.mass + rigid.mass));
+        road += report.ground_velocities[i] * weight;
+        road_weight += weight;
         let grip = contact.grip / dt;
         let velocity = contact.velocity(solved.chassis, solved.grounds);
         let flat = Vec2::new(velocity.dot(contact.along), velocity.dot(contact.across));
@@ -261,8 +199,12 @@ pub(super) fn finish(
     report.force = total;
     report.torque = torque + solved.outside.torque;
 
+    let road = road / road_weight;
+    if road.is_finite() {
+        state.ground_velocity = road;
+    }
     let acceleration = total / rigid.mass;
-    telemetry.speed = solved.speed;
+    telemetry.speed = (rigid.velocity - state.ground_velocity).dot(axes.forward);
     telemetry.rpm = state.engine_speed.abs() / from_rpm(1.0);
     telemetry.gear = state.gear;
     telemetry.steer_angle = state.steer_angle;
@@ -275,16 +217,6 @@ pub(super) fn finish(
     telemetry.grounded = landed.iter().filter(|l| **l).count() as u32;
     telemetry.drag = solved.outside.drag;
     telemetry.asleep = false;
-    report.height = mean_height(axes.up, solved.contacts);
-}
-
-/// Height of the centre of mass above the contacts, metres.
-fn mean_height(up: Vec3, contacts: &[Contact]) -> f32 {
-    if contacts.is_empty() {
-        return 0.0;
-    }
-    let sum: f32 = contacts.iter().map(|c| -c.arm.dot(up)).sum();
-    sum / contacts.len() as f32
 }
 
 fn finite(v: f32) -> f32 {

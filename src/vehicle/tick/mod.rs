@@ -4,6 +4,7 @@ mod brakes;
 mod contacts;
 mod driveline;
 mod finish;
+mod outside;
 mod sense;
 mod shares;
 mod steer;
@@ -19,7 +20,7 @@ use super::{
     output::VehicleTelemetry,
     report::VehicleReport,
     solve::{Chassis, Contact, GroundBody, MOST_WHEELS, Problem, Spin},
-    state::{VehicleState, WheelDynamics},
+    state::VehicleState,
     surface::{RoadVelocity, SurfaceFriction},
     wheel::Wheel,
 };
@@ -58,6 +59,8 @@ pub(super) struct Surroundings<'a, 'w, 's> {
     pub groups: Option<CollisionGroups>,
     pub surfaces: &'a Surfaces<'w, 's>,
     pub wheels: WheelList<'a>,
+    /// Their entities, in the same order.
+    pub wheel_entities: ArrayVec<Entity, MOST_WHEELS>,
     /// Ticks from one look at the ground to the next.
     pub probe_every: u8,
     pub assists: Assists<'a>,
@@ -86,22 +89,25 @@ pub(super) fn rests(
     handle: &RapierRigidBodyHandle,
     dt: f32,
     intent: &VehicleIntent,
-    state: &VehicleState,
-    report: &mut VehicleReport,
+    state: &mut VehicleState,
+    report: &VehicleReport,
 ) -> bool {
     let asked = intent.clean();
-    if asked != report.asked {
-        report.stay_awake = STAY_AWAKE;
+    if asked != state.asked {
+        state.stay_awake = STAY_AWAKE;
     }
     if !view.sleeps(handle) {
         return false;
     }
     let stirs = |ground| view.ground_stirs(ground, dt);
     let moved = state.wheels.iter().any(|w| w.ground.is_some_and(stirs));
-    if report.changed || moved || asked.throttle > 0.0 {
-        report.stay_awake = STAY_AWAKE;
+    // A hold that ends has to be seen.
+    let held = state.hill_hold > 0.0;
+    if report.changed || moved || held || asked.throttle > 0.0 {
+        state.stay_awake = STAY_AWAKE;
     }
-    report.stay_awake <= 0.0
+    // Not `> 0`: what is no number does not keep awake.
+    !(state.stay_awake > 0.0)
 }
 
 /// Solves one vehicle.
@@ -121,14 +127,12 @@ pub(super) fn run(
     if !(rigid.velocity.is_finite() && rigid.spin.is_finite() && rigid.position.is_finite()) {
         return;
     }
-    if state.wheels.len() != s.wheels.len() {
-        state
-            .wheels
-            .resize(s.wheels.len(), WheelDynamics::default());
-    }
+    state.follow(&s.wheel_entities);
+    state.heal();
+    report.wheels.clone_from(&s.wheel_entities);
     let asked = intent.clean();
-    report.stay_awake -= s.dt;
-    report.asked = asked;
+    state.stay_awake = (state.stay_awake - s.dt).max(0.0);
+    state.asked = asked;
     report.changed = false;
     report.solved = true;
 
@@ -138,8 +142,9 @@ pub(super) fn run(
         up: rigid.rotation * Vec3::Y,
         forward: rigid.rotation * Vec3::NEG_Z,
     };
-    let speed = rigid.velocity.dot(axes.forward);
-    let gravity = s.view.gravity * rigid.gravity_scale;
+    let speed = (rigid.velocity - state.ground_velocity).dot(axes.forward);
+    // Nothing falls along an axis that is locked.
+    let gravity = s.view.gravity * rigid.gravity_scale * rigid.free_axes();
     report.refresh_shares(s, &rigid);
 
     let angles = steer::steer(s, config, state, &asked, speed);
@@ -150,14 +155,17 @@ pub(super) fn run(
     let mut chassis = Chassis {
         start: rigid.velocity,
         start_spin: rigid.spin,
-        velocity: rigid.velocity + (gravity + rigid.force / rigid.mass) * dt,
+        velocity: rigid.velocity + (gravity + rigid.force * rigid.inverse_mass) * dt,
         spin: rigid.spin + rigid.inverse_inertia * rigid.torque * dt,
-        inverse_mass: 1.0 / rigid.mass,
+        inverse_mass: rigid.inverse_mass,
         inverse_inertia: rigid.inverse_inertia,
     };
     let grounded = found.iter().filter(|f| f.contact.is_some()).count();
-    let outside = finish::outside_forces(s, config, report, &rigid, &axes, &asked, speed, grounded);
-    chassis.velocity += outside.force / rigid.mass * dt;
+    let height = outside::height(&rigid, axes.up, &found);
+    let outside = outside::outside_forces(
+        s, config, &rigid, &axes, &asked, speed, grounded, height,
+    );
+    chassis.velocity += outside.force * rigid.inverse_mass * dt;
     chassis.spin += rigid.inverse_inertia * outside.torque * dt;
 
     let mut grounds: ArrayVec<GroundBody, MOST_WHEELS> = ArrayVec::new();
@@ -216,7 +224,6 @@ pub(super) fn run(
             line: &line,
             outside: &outside,
             brakes: &brakes,
-            speed,
         },
     );
 }

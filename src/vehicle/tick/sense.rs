@@ -65,7 +65,7 @@ pub(super) fn sense(
                 .and_then(|plane| extend(s, &plane));
             let touch = match known {
                 Some(hit) => rest_on_plane(wheel, &frame, top, &hit, least_cosine),
-                None => look(s, wheel, rigid, &frame, top, least_cosine),
+                None => look(s, wheel, rigid, &frame, top, least_cosine, last.ground),
             };
             let mut found = Found {
                 axle: frame.axle,
@@ -165,6 +165,7 @@ fn look(
     frame: &Frame,
     top: Vec3,
     least_cosine: f32,
+    stood_on: Option<Entity>,
 ) -> Option<(Touch, f32)> {
     let travel = wheel.suspension.travel;
     // From above the hub, so that a hard landing still finds the ground.
@@ -185,6 +186,13 @@ fn look(
         };
         // Above the wheel may be the inside of something: a low bridge, a ledge.
         let hit = match from(raise)? {
+            Seen::Ground(hit) if hit.distance < raise && stood_on != Some(hit.entity) => {
+                // Ground that the hub sank into, or something above the wheel that is none: cargo.
+                match from(0.0) {
+                    Some(Seen::Ground(below)) => below,
+                    _ => hit,
+                }
+            }
             Seen::Ground(hit) => hit,
             Seen::Inside => match from(0.0)? {
                 Seen::Ground(hit) => hit,
@@ -194,21 +202,32 @@ fn look(
         rest_on_plane(wheel, frame, top + offset, &hit, least_cosine)
     };
     let cast = |shape: ProbeShape, lower: f32| {
-        let probe = Probe {
-            origin: top + frame.down * (lower - raise),
-            rotation: frame.rotation,
-            direction: frame.down,
-            reach: raise + travel + ahead,
-            shape,
+        let from = |raise: f32| {
+            let probe = Probe {
+                origin: top + frame.down * (lower - raise),
+                rotation: frame.rotation,
+                direction: frame.down,
+                reach: raise + travel + ahead,
+                shape,
+            };
+            match s.view.probe(&probe, s.handle, s.groups)? {
+                Seen::Ground(mut hit) => {
+                    hit.distance -= raise;
+                    Some(hit)
+                }
+                Seen::Inside => None,
+            }
         };
-        let Seen::Ground(hit) = s.view.probe(&probe, s.handle, s.groups)? else {
-            return None;
-        };
+        let mut hit = from(raise)?;
+        // As with a ray: its upper half is above the hub.
+        if hit.distance < -wheel.radius && stood_on != Some(hit.entity) {
+            hit = from(0.0).unwrap_or(hit);
+        }
         let cosine = -hit.normal.dot(frame.down);
         if cosine < least_cosine {
             return None;
         }
-        let length = hit.distance - raise;
+        let length = hit.distance;
         let hub = top + frame.down * length;
         // Where along the tread's width it touches is chance on flat ground.
         let point = hit.point - frame.axle * (hit.point - hub).dot(frame.axle);

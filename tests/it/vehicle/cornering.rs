@@ -57,7 +57,7 @@ fn at_walking_pace_the_path_is_the_circle_of_the_steering() {
 
 /// The reference car with constant cornering stiffness of 80 kN/rad per axle and its centre of mass
 /// `a` metres behind the front axle; stiff in roll.
-fn bicycle(a: f32) -> Plan {
+pub fn bicycle(a: f32) -> Plan {
     let mut plan = Plan::reference()
         .suspension(|s| s.spring = SpringRate::RideFrequency(4.0))
         .tire(|t| {

@@ -1,0 +1,265 @@
+//! On ground that moves or changes: what the driver's helpers, the gearbox and the sleepers make of it.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::*;
+use embody_scenes::Sim;
+
+use super::support::*;
+
+/// A car that stands on a long deck which runs backward past the nose at this speed.
+fn ferry(hz: f64, plan: &Plan, speed: f32) -> (Sim, Car) {
+    let mut sim = Sim::new(hz);
+    sim.spawn((
+        RigidBody::KinematicVelocityBased,
+        Collider::cuboid(50.0, 0.5, 4000.0),
+        Velocity {
+            linear: Vec3::Z * speed,
+            angular: Vec3::ZERO,
+        },
+        Transform::from_xyz(0.0, -0.5, 0.0),
+    ));
+    let car = plan.park(&mut sim, Quat::IDENTITY);
+    car.push(&mut sim, Vec3::Z * speed);
+    sim.seconds(1.0);
+    (sim, car)
+}
+
+/// Way against the deck.
+fn way(sim: &Sim, car: &Car, speed: f32, from: Vec3, seconds: f32) -> Vec3 {
+    car.pose(sim).translation - from - Vec3::Z * speed * seconds
+}
+
+#[test]
+fn helpers_and_gearbox_take_the_deck_of_a_ferry_for_the_ground() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let run = |speed: f32, test: usize| {
+            let mut plan = Plan::reference().wheel(|i, w| w.driven = i < 2);
+            plan.vehicle.drivetrain = Some(Drivetrain::default());
+            plan.vehicle.steering.speed_curve = vec![
+                SteerPoint {
+                    speed: 0.0,
+                    part: 1.0,
+                },
+                SteerPoint {
+                    speed: 20.0,
+                    part: 0.1,
+                },
+            ];
+            let (mut sim, car) = ferry(hz, &plan, speed);
+            match test {
+                0 => {
+                    insert(&mut sim, car.body, AntiLockBrakes::default());
+                    edit::<Velocity>(&mut sim, car.body, |v| v.linear.z -= 15.0);
+                    edit::<VehicleState>(&mut sim, car.body, |s| {
+                        for w in &mut s.wheels {
+                            w.spin = 15.0 / RADIUS;
+                        }
+                    });
+                    car.ask(&mut sim, |i| i.brake = 1.0);
+                }
+                1 => {
+                    insert(&mut sim, car.body, TractionControl::default());
+                    car.ask(&mut sim, |i| i.throttle = 1.0);
+                }
+                2 => car.ask(&mut sim, |i| {
+                    i.throttle = 1.0;
+                    i.gear = Gear::Reverse;
+                }),
+                3 => {
+                    insert(&mut sim, car.body, StabilityControl::default());
+                    car.ask(&mut sim, |i| {
+                        i.throttle = 0.6;
+                        i.steer = 0.5;
+                    });
+                }
+                _ => {
+                    insert(&mut sim, car.body, HillHold { time: 1.0 });
+                    car.ask(&mut sim, |i| i.brake = 1.0);
+                    sim.seconds(1.0);
+                    car.ask(&mut sim, |i| i.brake = 0.0);
+                    sim.seconds(0.5);
+                    // Pushed within the time of the hold.
+                    edit::<ExternalForce>(&mut sim, car.body, |f| f.force = Vec3::X * 3000.0);
+                }
+            }
+            let start = car.pose(&sim).translation;
+            sim.seconds(3.0);
+            (way(&sim, &car, speed, start, 3.0), car.telemetry(&sim))
+        };
+        for (test, name) in ["anti-lock", "traction", "reverse", "stability"]
+            .iter()
+            .enumerate()
+        {
+            let (still, there) = run(0.0, test);
+            for speed in [20.0, -20.0] {
+                let (carried, here) = run(speed, test);
+                let case = format!("{hz} Hz {name} at {speed} m/s");
+                let off = (carried - still).length();
+                found.at_most(format!("{case}: way"), off, 0.01 * still.length());
+                found.near(format!("{case}: speed"), here.speed, there.speed, 0.05);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_belt_that_starts_takes_a_sleeping_car_along() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let floor = plane(&mut sim, Quat::IDENTITY);
+        let car = Plan::reference().park(&mut sim, Quat::IDENTITY);
+        insert(&mut sim, car.body, Sleeping::default());
+        car.ask(&mut sim, |i| i.brake = 1.0);
+        sim.seconds(10.0);
+        found.holds(format!("{hz} Hz: sleeps"), car.telemetry(&sim).asleep);
+        let belt = RoadVelocity {
+            linear: Vec3::X * 2.0,
+            ..default()
+        };
+        insert(&mut sim, floor, belt);
+        sim.seconds(3.0);
+        let speed = car.velocity(&sim).linear.x;
+        found.near(format!("{hz} Hz: taken along"), speed, 2.0, 0.02);
+    }
+}
+
+#[test]
+fn a_sleeping_car_on_a_hill_slides_when_the_road_freezes() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let rotation = uphill(15.0);
+        let mut sim = Sim::new(hz);
+        let road = plane(&mut sim, rotation);
+        let car = Plan::reference().park(&mut sim, rotation);
+        insert(&mut sim, car.body, Sleeping::default());
+        car.ask(&mut sim, |i| i.brake = 1.0);
+        sim.seconds(10.0);
+        found.holds(format!("{hz} Hz: sleeps"), car.telemetry(&sim).asleep);
+        insert(&mut sim, road, SurfaceFriction::new(0.05));
+        sim.seconds(2.0);
+        let speed = car.velocity(&sim).linear.length();
+        found.at_least(format!("{hz} Hz: slides"), speed, 2.0);
+        insert(&mut sim, road, SurfaceFriction::default());
+        sim.seconds(2.0);
+        let speed = car.velocity(&sim).linear.length();
+        found.at_most(format!("{hz} Hz: stops"), speed, 0.01);
+    }
+}
+
+#[test]
+fn a_car_that_hill_hold_keeps_does_not_sleep_through_its_end() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let rotation = uphill(10.0);
+        let mut sim = Sim::new(hz);
+        plane(&mut sim, rotation);
+        let car = Plan::reference().park(&mut sim, rotation);
+        insert(
+            &mut sim,
+            car.body,
+            (HillHold { time: 8.0 }, Sleeping::default()),
+        );
+        car.ask(&mut sim, |i| i.brake = 1.0);
+        sim.seconds(4.0);
+        let start = car.pose(&sim).translation;
+        car.ask(&mut sim, |i| i.brake = 0.0);
+        sim.seconds(7.5);
+        let held = (car.pose(&sim).translation - start).length();
+        found.at_most(format!("{hz} Hz: held"), held, 0.001);
+        sim.seconds(2.0);
+        let rolled = (car.pose(&sim).translation - start).length();
+        found.at_least(format!("{hz} Hz: rolls"), rolled, 0.5);
+    }
+}
+
+#[test]
+fn surfaces_of_no_numbers_count_as_plain_ones() {
+    let mut found = Findings::new();
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1.0e38] {
+        for which in 0..3 {
+            let mut sim = Sim::new(60.0);
+            let road = plane(&mut sim, Quat::IDENTITY);
+            let car = Plan::reference()
+                .tire(|t| t.rolling_resistance = 0.01)
+                .park(&mut sim, Quat::IDENTITY);
+            car.ask(&mut sim, |i| i.brake = 1.0);
+            sim.seconds(1.0);
+            match which {
+                0 => insert(&mut sim, road, SurfaceFriction::new(bad)),
+                1 => insert(
+                    &mut sim,
+                    road,
+                    SurfaceFriction {
+                        rolling_resistance: bad,
+                        ..default()
+                    },
+                ),
+                _ => insert(
+                    &mut sim,
+                    road,
+                    RoadVelocity {
+                        linear: Vec3::X * bad,
+                        angular: Vec3::splat(bad),
+                    },
+                ),
+            }
+            let case = format!("{bad} field {which}");
+            let mut finite = true;
+            for _ in 0..120 {
+                sim.ticks(1);
+                finite &= car.finite(&sim);
+            }
+            found.holds(format!("{case}: finite"), finite);
+            if !bad.is_finite() || which != 2 {
+                let y = car.pose(&sim).translation.y;
+                found.near(format!("{case}: stands"), y, HEIGHT, 0.02);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_with_locked_axes_is_solved_as_one() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        // On rails at a height: the springs carry what their compression says, no matter the weight.
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT + 0.05, 0.0));
+        insert(&mut sim, car.body, LockedAxes::TRANSLATION_LOCKED_Y);
+        sim.seconds(2.0);
+        for (i, wheel) in car.all(&sim).iter().enumerate() {
+            let wanted = 33_310.0 * (SAG - 0.05);
+            let case = format!("{hz} Hz on rails wheel {i}: load");
+            found.within(case, wheel.load, wanted, 0.005);
+        }
+
+        // A side-scroller on a slope across: its rail holds it, not its tyres.
+        let rotation = side_on(15.0);
+        let mut sim = Sim::new(hz);
+        plane(&mut sim, rotation);
+        let car = Plan::reference().park(&mut sim, rotation);
+        insert(
+            &mut sim,
+            car.body,
+            LockedAxes::TRANSLATION_LOCKED_X | LockedAxes::ROTATION_LOCKED_Z,
+        );
+        sim.seconds(3.0);
+        let side: f32 = car.all(&sim).iter().map(|w| w.force.y.abs()).sum();
+        let x = car.pose(&sim).translation.x;
+        found.at_most(format!("{hz} Hz across: still"), car.velocity(&sim).linear.length(), 1.0e-3);
+        found.holds(format!("{hz} Hz across: finite {x} {side}"), car.finite(&sim));
+        let mut worst = 0.0f32;
+        let before = car.loads(&sim);
+        for _ in 0..hz as usize {
+            sim.ticks(1);
+            for (a, b) in car.loads(&sim).iter().zip(&before) {
+                worst = worst.max((a - b).abs());
+            }
+        }
+        found.at_most(format!("{hz} Hz across: loads shake"), worst, 10.0);
+    }
+}
