@@ -112,17 +112,22 @@ impl PhysicsWorldsMut<'_, '_> {
     /// gave them others meanwhile.
     pub fn end_forces(&mut self) {
         // The last push of a body is undone first.
-        for forced in self.forced.0.drain(..).rev() {
+        for forced in self.forced.0.iter_mut().rev() {
+            forced.waits = false;
             if let Ok((_, _, mut bodies)) = self.contexts.get_mut(forced.link)
                 && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(forced.body)
-                && (body.user_force(), body.user_torque()) == forced.after
             {
-                body.reset_forces(false);
-                body.reset_torques(false);
-                body.add_force(forced.before.0, false);
-                body.add_torque(forced.before.1, false);
+                // One that is not dynamic any more hides its forces until it is so again.
+                forced.waits = !body.is_dynamic();
+                if (body.user_force(), body.user_torque()) == forced.after && !forced.waits {
+                    body.reset_forces(false);
+                    body.reset_torques(false);
+                    body.add_force(forced.before.0, false);
+                    body.add_torque(forced.before.1, false);
+                }
             }
         }
+        self.forced.0.retain(|forced| forced.waits);
     }
 }
 
@@ -133,9 +138,11 @@ struct Forced {
     body: RigidBodyHandle,
     before: (Vec3, Vec3),
     after: (Vec3, Vec3),
+    /// Whether it could not be undone yet.
+    waits: bool,
 }
 
-/// The pushes of this tick, in their order; empty between ticks.
+/// The pushes of this tick, in their order; between ticks those that wait to be undone.
 #[derive(Resource)]
 pub(crate) struct ForcedBodies(Vec<Forced>);
 
@@ -152,6 +159,7 @@ impl ForcedBodies {
             body: handle,
             before,
             after: (body.user_force(), body.user_torque()),
+            waits: false,
         });
     }
 }

@@ -137,7 +137,7 @@ impl Default for WheelDynamics {
 }
 
 /// No value of a state is beyond this in the units it has; what is was never computed here.
-const MOST: f32 = 1.0e9;
+const MOST: f32 = 1.0e15;
 
 impl VehicleState {
     /// Gives each of these wheels its own state, in their order, whichever were taken away, added or

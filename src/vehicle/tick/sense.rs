@@ -79,7 +79,10 @@ pub(super) fn sense(
             let farthest = if wheel.suspension.unsprung_mass > 0.0 {
                 let pull = law.force(last.compression).max(0.0) / wheel.suspension.unsprung_mass
                     + gravity.dot(frame.down);
-                let out = (-last.compression_rate).max(0.0) * s.dt + pull.max(0.0) * s.dt * s.dt;
+                // By Verlet's scheme, whose first step off the ground is half a one.
+                let step = if last.ground.is_some() { 0.5 } else { 1.0 };
+                let out =
+                    (-last.compression_rate).max(0.0) * s.dt + step * pull.max(0.0) * s.dt * s.dt;
                 extension + out
             } else {
                 f32::INFINITY

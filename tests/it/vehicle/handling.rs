@@ -169,12 +169,15 @@ fn the_rear_wheels_lift_where_the_brakes_would_tip_the_car() {
         };
         let car = plan.park(&mut sim, Quat::IDENTITY);
         sim.seconds(1.0);
-        car.roll(&mut sim, Vec3::NEG_Z * 60.0);
+        car.roll(&mut sim, Vec3::NEG_Z * 70.0);
         sim.seconds(0.5);
         let mut lifted = 0.0;
-        for tick in 0..(3.0 * hz) as usize {
+        let mut pose = car.pose(&sim);
+        for tick in 0..(5.0 * hz) as usize {
             let time = tick as f32 / hz as f32;
-            car.ask(&mut sim, |i| i.brake = 0.4 + 0.25 * time);
+            car.ask(&mut sim, |i| i.brake = 0.2 + 0.1 * time);
+            // Contacts are those of the start of a tick.
+            pose = car.pose(&sim);
             sim.ticks(1);
             let load = car.loads(&sim);
             if load[2] + load[3] < 1.0 {
@@ -182,7 +185,6 @@ fn the_rear_wheels_lift_where_the_brakes_would_tip_the_car() {
                 break;
             }
         }
-        let pose = car.pose(&sim);
         // The front contact seen from the centre of mass.
         let front = car.wheel(&sim, 0).contact.map_or(Vec3::NAN, |c| c.point);
         let arm = front - pose.translation;

@@ -4,11 +4,15 @@ mod support;
 
 mod assists;
 mod braking;
+mod carried;
+mod changes;
 mod cornering;
 mod determinism;
 mod ground;
+mod handling;
 mod hills;
 mod life;
+mod odd;
 mod places;
 mod presets;
 mod resistance;

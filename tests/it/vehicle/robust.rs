@@ -1,6 +1,6 @@
 //! Extremes: stiffness, damping, mass, friction, time step, bad numbers.
 
-use bevy::{math::ops, prelude::*};
+use bevy::prelude::*;
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::Sim;
@@ -53,33 +53,11 @@ fn no_stiffness_or_damping_makes_a_dropped_car_gain_energy() {
     }
 }
 
-/// Random numbers, the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        ((self.0 >> 40) as f32) / ((1u64 << 24) as f32)
-    }
-
-    fn between(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * self.roll()
-    }
-
-    /// Evenly over the orders of magnitude.
-    fn scale(&mut self, low: f32, high: f32) -> f32 {
-        ops::exp(self.between(ops::ln(low), ops::ln(high)))
-    }
-}
-
 #[test]
 fn random_vehicles_stay_finite_and_gain_no_energy_without_input() {
     let mut found = Findings::new();
     for seed in 0..60 {
-        let mut dice = Dice(seed * 7919 + 1);
+        let mut dice = Dice::new(seed * 7919 + 1);
         for _ in 0..10 {
             dice.roll();
         }

@@ -260,3 +260,30 @@ pub fn sin(degrees: f32) -> f32 {
 pub fn cos(degrees: f32) -> f32 {
     ops::cos(degrees.to_radians())
 }
+
+/// Random numbers, the same in every run.
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// From 0 to 1.
+    pub fn roll(&mut self) -> f32 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        ((self.0 >> 40) as f32) / ((1u64 << 24) as f32)
+    }
+
+    pub fn between(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.roll()
+    }
+
+    /// Evenly over the orders of magnitude.
+    pub fn scale(&mut self, low: f32, high: f32) -> f32 {
+        ops::exp(self.between(ops::ln(low), ops::ln(high)))
+    }
+}
