@@ -20,6 +20,8 @@ pub(crate) mod collider;
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod forces;
+#[cfg(feature = "vehicle")]
+pub(crate) mod hold;
 #[cfg(any(feature = "character", feature = "vehicle"))]
 pub(crate) mod motion;
 #[cfg(any(feature = "character", feature = "vehicle"))]

@@ -103,6 +103,19 @@ impl PhysicsView<'_> {
         rigid(body)
     }
 
+    /// Why a body cannot be pushed: which of its components, and what that would have to be. `None` of
+    /// one that is only switched off.
+    pub fn unfit(&self, handle: &RapierRigidBodyHandle) -> Option<(&'static str, &'static str)> {
+        let body = self.bodies.bodies.get(handle.0)?;
+        if !body.is_enabled() {
+            None
+        } else if !body.is_dynamic() {
+            Some(("RigidBody", "RigidBody::Dynamic"))
+        } else {
+            Some(("mass", "a collider or a VehicleMass"))
+        }
+    }
+
     /// Whether a dynamic body sleeps.
     pub fn sleeps(&self, handle: &RapierRigidBodyHandle) -> bool {
         let body = self.bodies.bodies.get(handle.0);

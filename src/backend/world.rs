@@ -3,8 +3,8 @@
 use bevy::{ecs::system::SystemParam, prelude::*};
 use bevy_rapier3d::{
     plugin::context::{
-        RapierContextColliders, RapierContextEntityLink, RapierContextSimulation,
-        RapierRigidBodySet,
+        RapierContextColliders, RapierContextEntityLink, RapierContextJoints,
+        RapierContextSimulation, RapierRigidBodySet,
     },
     prelude::{CollisionGroups, RapierConfiguration, RapierRigidBodyHandle},
     rapier::{
@@ -31,6 +31,7 @@ pub(crate) struct PhysicsWorlds<'w, 's> {
             &'static RapierContextSimulation,
             &'static RapierContextColliders,
             &'static RapierRigidBodySet,
+            &'static RapierContextJoints,
             &'static RapierConfiguration,
         ),
     >,
@@ -39,11 +40,13 @@ pub(crate) struct PhysicsWorlds<'w, 's> {
 impl PhysicsWorlds<'_, '_> {
     /// The world that a body belongs to.
     pub fn of(&self, link: &RapierContextEntityLink) -> Option<PhysicsView<'_>> {
-        let (simulation, colliders, bodies, config) = self.contexts.get(link.0).ok()?;
+        let (simulation, colliders, bodies, joints, config) = self.contexts.get(link.0).ok()?;
         Some(PhysicsView {
             simulation,
             colliders,
             bodies,
+            #[cfg(feature = "vehicle")]
+            joints,
             gravity: config.gravity,
             active: config.physics_pipeline_active,
         })
@@ -56,6 +59,8 @@ pub(crate) struct PhysicsView<'a> {
     pub(super) simulation: &'a RapierContextSimulation,
     pub(super) colliders: &'a RapierContextColliders,
     pub(super) bodies: &'a RapierRigidBodySet,
+    #[cfg(feature = "vehicle")]
+    pub(super) joints: &'a RapierContextJoints,
     pub gravity: Vec3,
     /// Whether the world is stepped.
     pub active: bool,

@@ -37,7 +37,7 @@ pub(super) fn solve_vehicles(
     surfaces: Surfaces,
     wheels: Query<(Entity, &Wheel)>,
     mut vehicles: Query<(
-        (&Vehicle, &VehicleIntent, &Wheels),
+        (Entity, &Vehicle, &VehicleIntent, &Wheels),
         (
             &RapierContextEntityLink,
             &RapierRigidBodyHandle,
@@ -64,7 +64,7 @@ pub(super) fn solve_vehicles(
     let batches = BatchingStrategy::new().batches_per_thread(4);
     vehicles.par_iter_mut().batching_strategy(batches).for_each(
         |(
-            (config, intent, tied),
+            (entity, config, intent, tied),
             (link, handle, groups),
             (abs, traction, stability, hill, lean, interval),
             mut state,
@@ -97,9 +97,9 @@ pub(super) fn solve_vehicles(
             }
             let mut list = WheelList::new();
             let mut entities = ArrayVec::new();
-            for (entity, wheel) in wheels.iter_many(tied.iter()).take(Wheel::MOST) {
-                list.push(wheel);
-                entities.push(entity);
+            for (wheel, config) in wheels.iter_many(tied.iter()).take(Wheel::MOST) {
+                list.push(config);
+                entities.push(wheel);
             }
             if list.is_empty() {
                 report.clear();
@@ -108,6 +108,7 @@ pub(super) fn solve_vehicles(
             let surroundings = Surroundings {
                 view,
                 dt,
+                entity,
                 handle,
                 groups: groups.copied(),
                 surfaces: &surfaces,

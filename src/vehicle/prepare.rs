@@ -42,7 +42,10 @@ pub(super) fn check_configs(
             tracing::warn!("{wheel}: WheelOf is {it}, but needs a Vehicle; the wheel does nothing");
         }
     }
-    stirred.extend(bare.read().filter_map(|wheel| Some(ties.get(wheel).ok()?.0)));
+    stirred.extend(
+        bare.read()
+            .filter_map(|wheel| Some(ties.get(wheel).ok()?.0)),
+    );
     stirred.extend(changed.iter());
     stirred.sort_unstable();
     stirred.dedup();
@@ -128,7 +131,11 @@ pub(super) fn check_helpers(
     lean: Query<(Entity, &LeanControl), Changed<LeanControl>>,
 ) {
     for (entity, helper) in abs.iter().filter(|(_, h)| !h.is_sound()) {
-        refuse(entity, helper, "slip above 0 and at most 1, least_speed at least 0");
+        refuse(
+            entity,
+            helper,
+            "slip above 0 and at most 1, least_speed at least 0",
+        );
     }
     for (entity, helper) in traction.iter().filter(|(_, h)| !h.is_sound()) {
         refuse(entity, helper, "a finite slip above 0");

@@ -6,6 +6,10 @@ use bevy::prelude::*;
 
 use super::{drivetrain::Shift, output::WheelState, solve::MOST_WHEELS};
 
+/// After this many ticks a vehicle whose body wheels cannot carry is named in a warning: what is
+/// spawned piece by piece has its pieces by then.
+pub(crate) const UNFIT_TICKS: u8 = 4;
+
 /// The decisions of one tick.
 #[derive(Component)]
 pub(crate) struct VehicleReport {
@@ -16,6 +20,8 @@ pub(crate) struct VehicleReport {
     pub asleep: bool,
     /// Whether something about the vehicle changed that a sleeper has to look at.
     pub changed: bool,
+    /// Ticks for which the body was none that wheels can carry, at most [`UNFIT_TICKS`].
+    pub unfit: u8,
     /// Whether its body has to wake up although nothing is solved.
     pub wake: bool,
     /// The wheels of the tick, in the order of everything else here.
@@ -27,6 +33,8 @@ pub(crate) struct VehicleReport {
     pub pushes: ArrayVec<GroundPush, MOST_WHEELS>,
     pub ground_bodies: [Option<Entity>; MOST_WHEELS],
     pub ground_velocities: [Vec3; MOST_WHEELS],
+    /// Velocities of the dynamic bodies under the wheels, at their centres of mass.
+    pub ground_speeds: [Vec3; MOST_WHEELS],
     pub outputs: ArrayVec<WheelState, MOST_WHEELS>,
     pub events: ArrayVec<(usize, WheelEvent), 64>,
     pub shift: Option<Shift>,
@@ -44,6 +52,7 @@ impl Default for VehicleReport {
             solved: false,
             asleep: false,
             changed: true,
+            unfit: 0,
             wake: false,
             wheels: ArrayVec::new(),
             force: Vec3::ZERO,
@@ -51,6 +60,7 @@ impl Default for VehicleReport {
             pushes: ArrayVec::new(),
             ground_bodies: [None; MOST_WHEELS],
             ground_velocities: [Vec3::ZERO; MOST_WHEELS],
+            ground_speeds: [Vec3::ZERO; MOST_WHEELS],
             outputs: ArrayVec::new(),
             events: ArrayVec::new(),
             shift: None,

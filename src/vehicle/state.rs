@@ -98,6 +98,9 @@ pub struct WheelDynamics {
     pub expected: Vec2,
     /// Force of the last tick on the ground, world axes, newtons.
     pub ground_force: Vec3,
+    /// Velocity of the dynamic body under it at the start of the last tick, world axes, metres per
+    /// second: how it changed tells whether anything else holds that body.
+    pub ground_speed: Vec3,
     /// The entity of the collider that the wheel stands on.
     #[entities]
     pub ground: Option<Entity>,
@@ -126,6 +129,7 @@ impl Default for WheelDynamics {
             slip: 0.0,
             expected: Vec2::ZERO,
             ground_force: Vec3::ZERO,
+            ground_speed: Vec3::ZERO,
             ground: None,
             plane: None,
             abs: 1.0,
@@ -144,19 +148,24 @@ impl VehicleState {
     /// put in another order since the last tick.
     pub(crate) fn follow(&mut self, wheels: &[Entity]) {
         let fits = self.wheels.len() == wheels.len()
-            && self.wheels.iter().zip(wheels).all(|(s, w)| s.wheel == Some(*w));
+            && self
+                .wheels
+                .iter()
+                .zip(wheels)
+                .all(|(s, w)| s.wheel == Some(*w));
         if fits {
             return;
         }
         let before = core::mem::take(&mut self.wheels);
-        self.wheels.extend(wheels.iter().enumerate().map(|(i, wheel)| {
-            let own = before.iter().find(|s| s.wheel == Some(*wheel));
-            let nobodys = before.get(i).filter(|s| s.wheel.is_none());
-            WheelDynamics {
-                wheel: Some(*wheel),
-                ..own.or(nobodys).copied().unwrap_or_default()
-            }
-        }));
+        self.wheels
+            .extend(wheels.iter().enumerate().map(|(i, wheel)| {
+                let own = before.iter().find(|s| s.wheel == Some(*wheel));
+                let nobodys = before.get(i).filter(|s| s.wheel.is_none());
+                WheelDynamics {
+                    wheel: Some(*wheel),
+                    ..own.or(nobodys).copied().unwrap_or_default()
+                }
+            }));
     }
 
     /// Replaces what is no number, as a broken message may bring it, by what a new vehicle has.
@@ -193,7 +202,8 @@ impl VehicleState {
                 wheel.expected.x,
                 wheel.expected.y,
             ];
-            if !(sound(&scalars) && sound(&wheel.ground_force.to_array())) {
+            let vectors = [wheel.ground_force, wheel.ground_speed];
+            if !(sound(&scalars) && vectors.iter().all(|v| sound(&v.to_array()))) {
                 *wheel = WheelDynamics {
                     wheel: wheel.wheel,
                     ..WheelDynamics::default()

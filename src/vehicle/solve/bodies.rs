@@ -30,22 +30,42 @@ impl Chassis {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroundBody {
     pub entity: Entity,
-    /// Change of velocity against the ground's at the start of the tick. Begins with the last tick's
-    /// wheel forces taken back: what else holds the body (a floor, joints) is assumed to act as it
-    /// did, so that a body on a floor is not taken for something that gives way.
+    /// Change of velocity against the ground's at the start of the tick.
     pub velocity: Vec3,
     pub spin: Vec3,
     /// Kilograms.
     pub mass: f32,
-    /// Along the world's axes, 1/kg.
-    pub inverse_mass: Vec3,
+    /// As far as it gives way: world axes, 1/kg and 1/(kg·m²).
+    pub inverse_mass: Mat3,
     pub inverse_inertia: Mat3,
+    /// Impulse and turning impulse of the wheels in the last tick.
+    pub pushed: Vec3,
+    pub turned: Vec3,
 }
 
 impl GroundBody {
     pub fn push(&mut self, impulse: Vec3, arm: Vec3) {
-        self.velocity += impulse * self.inverse_mass;
+        self.velocity += self.inverse_mass * impulse;
         self.spin += self.inverse_inertia * arm.cross(impulse);
+    }
+
+    /// Begins with what will act on it besides the wheels. That is not known here: floors, joints and
+    /// other vehicles answer the wheels as they will. It is taken from the last tick: `moved` is by how
+    /// much that tick changed the body's velocity, `fall` what gravity gives it in a tick. As far as the
+    /// wheels' push and gravity show up in it, the body is free; as far as they do not, others take
+    /// them up, and go on to.
+    pub fn begin(&mut self, moved: Vec3, fall: Vec3) {
+        // Along what cannot give way nothing shows.
+        let gives = self.inverse_mass * self.mass;
+        let alone = self.inverse_mass * self.pushed + gives * fall;
+        let size = alone.length_squared();
+        let free = if size > 1.0e-12 {
+            (moved.dot(alone) / size).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        self.velocity = gives * fall * free - self.inverse_mass * self.pushed * (1.0 - free);
+        self.spin = self.inverse_inertia * self.turned * (free - 1.0);
     }
 }
 
@@ -91,7 +111,7 @@ impl Contact<'_> {
         {
             let body = &grounds[a];
             let turned = body.inverse_inertia * arm.cross(from);
-            sum += (from * body.inverse_mass).dot(to) + other_arm.cross(to).dot(turned);
+            sum += (body.inverse_mass * from).dot(to) + other_arm.cross(to).dot(turned);
         }
         sum
     }

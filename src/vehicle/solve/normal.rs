@@ -14,6 +14,10 @@
 use super::{Contact, MOST_WHEELS, Problem, dense::Ldlt};
 use crate::vehicle::suspension::{Piece, Scheme};
 
+/// Speed with which a wheel beyond the end of its travel is pushed out of the ground, metres per second:
+/// enough to be out soon, too little to throw the vehicle where a step appears under a wheel.
+const RECOVERY: f32 = 3.0;
+
 pub(super) struct Normals {
     /// Mobilities between the contacts along their normals, 1/kg.
     mobility: [[f32; MOST_WHEELS]; MOST_WHEELS],
@@ -175,7 +179,9 @@ impl Normals {
             let expected = self.expected(i, c, now[i], problem);
             // As stiff as brings the wheel to rest within the tick.
             let block = 2.0 / (dt * dt * self.total[i]);
-            let piece = c.law.piece(c.compression, expected, now[i] < 0.0, block);
+            let piece = c
+                .law
+                .piece(c.compression, expected, now[i] < 0.0, block, RECOVERY * dt);
             // Above the ground a wheel pushes only if it gets there within the tick.
             let pushing = c.compression > 0.0 || expected > 0.0;
             if piece != self.piece[i] || pushing != self.pushing[i] || !self.factored {

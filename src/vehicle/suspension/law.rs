@@ -51,8 +51,10 @@ impl Law {
         }
     }
 
-    /// Force of spring and bump stop at a compression, newtons.
+    /// Force of spring and bump stop at a compression, newtons. Beyond the travel it does not grow: there
+    /// the block takes over.
     pub fn force(&self, x: f32) -> f32 {
+        let x = x.min(self.travel);
         let spring =
             self.preload + self.stiffness * x * (1.0 + self.progression * x.max(0.0) / self.travel);
         spring + self.stop_stiffness * (x - self.stop_at).max(0.0)
@@ -60,8 +62,9 @@ impl Law {
 
     /// The line through the present compression `x` and the one expected at the end of the tick, so
     /// that a corner between the two is not missed. `block` is the stiffness of a wheel at the end of
-    /// its travel, newtons per metre.
-    pub fn piece(&self, x: f32, expected: f32, bumping: bool, block: f32) -> Piece {
+    /// its travel, newtons per metre, and `recovery` how far it is pushed out of the ground in a tick,
+    /// metres.
+    pub fn piece(&self, x: f32, expected: f32, bumping: bool, block: f32, recovery: f32) -> Piece {
         let damping = if bumping { self.bump } else { self.rebound };
         let tangent =
             |x: f32| self.stiffness * (1.0 + 2.0 * self.progression * x.max(0.0) / self.travel);
@@ -82,7 +85,7 @@ impl Law {
         let mut damping = damping;
         if end > self.travel {
             stiffness += block;
-            force += block * (x - self.travel);
+            force += block * (x - self.travel).min(recovery);
             damping = damping.max(self.bump);
         }
         Piece {
@@ -136,12 +139,12 @@ mod tests {
         };
         let law = law(config);
         for (x, end) in [(0.05, 0.1), (0.1, 0.05), (0.215, 0.24), (0.23, 0.24)] {
-            let piece = law.piece(x, end, true, 0.0);
+            let piece = law.piece(x, end, true, 0.0, 0.0);
             let at_end = piece.force + piece.stiffness * (end - x);
             assert!((at_end - law.force(end)).abs() < 1.0, "{x} {end}: {at_end}");
         }
         // Below the stop its line starts below the spring's force and meets the law behind it.
-        let piece = law.piece(0.2, 0.23, true, 0.0);
+        let piece = law.piece(0.2, 0.23, true, 0.0, 0.0);
         let at_end = piece.force + piece.stiffness * 0.03;
         assert!((at_end - law.force(0.23)).abs() < 1.0);
     }

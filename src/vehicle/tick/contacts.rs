@@ -5,7 +5,10 @@ use bevy::{math::ops, prelude::*};
 
 use super::{Found, Surroundings};
 use crate::{
-    backend::rigid::{GroundMotion, Rigid},
+    backend::{
+        hold::Hold,
+        rigid::{GroundMotion, Rigid},
+    },
     vehicle::{
         config::Vehicle,
         report::VehicleReport,
@@ -18,8 +21,8 @@ use crate::{
 /// Below this speed against the ground a carcass remembers what others did to it, metres per second.
 const SLOW: f32 = 2.0;
 
-/// A body under a wheel counts as at least the vehicle's mass over this: what is much lighter than a
-/// wheel's load can only carry it because something else carries it in turn.
+/// A body that joints hold counts as at least the vehicle's mass over this: what else hangs on them
+/// takes its part, but how much of it only the physics step knows.
 const LIGHTEST: f32 = 8.0;
 
 pub(super) fn build<'a>(
@@ -33,6 +36,8 @@ pub(super) fn build<'a>(
     contacts: &mut ArrayVec<Contact<'a>, MOST_WHEELS>,
 ) {
     let own_mass = rigid.mass;
+    let mut moved = [Vec3::ZERO; MOST_WHEELS];
+    let mut falls = [Vec3::ZERO; MOST_WHEELS];
     for (i, f) in found.iter().enumerate() {
         let Some(touch) = f.contact else { continue };
         let wheel = s.wheels[i];
@@ -43,7 +48,9 @@ pub(super) fn build<'a>(
         let (friction, road) = s.surfaces.get(touch.entity).unwrap_or_default();
         let friction = friction.copied().filter(SurfaceFriction::is_sound);
         let friction = friction.unwrap_or_default();
-        let road = road.filter(|r| r.is_sound()).zip(s.view.collider_pose(touch.entity));
+        let road = road
+            .filter(|r| r.is_sound())
+            .zip(s.view.collider_pose(touch.entity));
         let ground_at = |point: Vec3| {
             let mut velocity = motion.velocity_at(point);
             if let Some((road, (origin, rotation))) = road {
@@ -67,21 +74,18 @@ pub(super) fn build<'a>(
             GroundMotion::Free { body, rigid } if !rigid.sleeping => {
                 let index = grounds.iter().position(|g| g.entity == body);
                 let index = index.unwrap_or_else(|| {
-                    let heavier = (rigid.mass * LIGHTEST / own_mass).min(1.0);
-                    grounds.push(GroundBody {
-                        entity: body,
-                        velocity: Vec3::ZERO,
-                        spin: Vec3::ZERO,
-                        mass: rigid.mass,
-                        inverse_mass: rigid.inverse_mass * heavier,
-                        inverse_inertia: rigid.inverse_inertia * heavier,
-                    });
+                    let hold = s.view.hold(body, s.handle, touch.normal, touch.point);
+                    grounds.push(ground_body(body, &rigid, hold, own_mass));
                     grounds.len() - 1
                 });
                 let arm = touch.point - rigid.center;
                 if same_ground {
-                    grounds[index].push(last.ground_force * -s.dt, arm);
+                    let impulse = last.ground_force * s.dt;
+                    grounds[index].pushed += impulse;
+                    grounds[index].turned += arm.cross(impulse);
+                    moved[index] = rigid.velocity - last.ground_speed;
                 }
+                falls[index] = s.view.gravity * rigid.gravity_scale * rigid.free_axes() * s.dt;
                 Some((index, arm))
             }
             _ => None,
@@ -89,6 +93,10 @@ pub(super) fn build<'a>(
         report.ground_bodies[i] = match motion {
             GroundMotion::Free { body, .. } => Some(body),
             _ => None,
+        };
+        report.ground_speeds[i] = match motion {
+            GroundMotion::Free { rigid, .. } => rigid.velocity,
+            _ => Vec3::ZERO,
         };
         report.ground_velocities[i] = ground_start;
         let Some(along) = touch.normal.cross(f.axle).try_normalize() else {
@@ -154,7 +162,39 @@ pub(super) fn build<'a>(
             patch: None,
         });
     }
+    for (i, ground) in grounds.iter_mut().enumerate() {
+        ground.begin(moved[i], falls[i]);
+    }
     join_bars(s, config, found, contacts);
+}
+
+/// A body under a wheel as far as it gives way: along what holds it, it does not.
+fn ground_body(entity: Entity, rigid: &Rigid, hold: Hold, own_mass: f32) -> GroundBody {
+    let inverse_mass = Mat3::from_diagonal(rigid.inverse_mass);
+    let inverse_inertia = rigid.inverse_inertia;
+    let (inverse_mass, inverse_inertia) = match hold {
+        Hold::Free => (inverse_mass, inverse_inertia),
+        Hold::Floor(normal) => {
+            let along = Mat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
+            let across = Mat3::IDENTITY - along;
+            let turn = normal.dot(inverse_inertia * normal);
+            (across * inverse_mass * across, along * turn)
+        }
+        Hold::Joints => {
+            let heavier = (rigid.mass * LIGHTEST / own_mass).min(1.0);
+            (inverse_mass * heavier, inverse_inertia * heavier)
+        }
+    };
+    GroundBody {
+        entity,
+        velocity: Vec3::ZERO,
+        spin: Vec3::ZERO,
+        mass: rigid.mass,
+        inverse_mass,
+        inverse_inertia,
+        pushed: Vec3::ZERO,
+        turned: Vec3::ZERO,
+    }
 }
 
 /// Ties the two sides of each axle by its anti-roll bar.

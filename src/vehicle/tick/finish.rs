@@ -104,6 +104,7 @@ pub(super) fn finish(
         }
         last.slip = contact.combined;
         last.ground_force = -pushed;
+        last.ground_speed = report.ground_speeds[i];
         let load = contact.push / dt;
         // What gives way under the vehicle is less of a ground to it.
         let body = contact.ground.map(|(index, _)| &solved.grounds[index]);
@@ -176,6 +177,7 @@ pub(super) fn finish(
             last.bristle = Vec2::ZERO;
             last.slip = 0.0;
             last.ground_force = Vec3::ZERO;
+            last.ground_speed = Vec3::ZERO;
             last.bottomed = false;
             if last.slipping {
                 last.slipping = false;

@@ -18,13 +18,16 @@ use super::{
     config::Vehicle,
     intent::VehicleIntent,
     output::VehicleTelemetry,
-    report::VehicleReport,
+    report::{UNFIT_TICKS, VehicleReport},
     solve::{Chassis, Contact, GroundBody, MOST_WHEELS, Problem, Spin},
     state::VehicleState,
     surface::{RoadVelocity, SurfaceFriction},
     wheel::Wheel,
 };
-use crate::backend::{handles::RapierRigidBodyHandle, rigid::Rigid, world::PhysicsView};
+use crate::{
+    backend::{handles::RapierRigidBodyHandle, rigid::Rigid, world::PhysicsView},
+    validate::warn_bad,
+};
 
 pub(super) use sense::Found;
 
@@ -55,6 +58,7 @@ pub(super) struct Assists<'a> {
 pub(super) struct Surroundings<'a, 'w, 's> {
     pub view: PhysicsView<'a>,
     pub dt: f32,
+    pub entity: Entity,
     pub handle: &'a RapierRigidBodyHandle,
     pub groups: Option<CollisionGroups>,
     pub surfaces: &'a Surfaces<'w, 's>,
@@ -122,8 +126,24 @@ pub(super) fn run(
 ) {
     report.clear();
     let Some(rigid) = s.view.rigid(s.handle) else {
+        if report.unfit < UNFIT_TICKS
+            && let Some((what, need)) = s.view.unfit(s.handle)
+        {
+            report.unfit += 1;
+            if report.unfit == UNFIT_TICKS {
+                warn_bad(
+                    s.entity,
+                    what,
+                    "none that wheels can carry",
+                    need,
+                    "it has no wheels",
+                );
+            }
+        }
         return;
     };
+    // One that drove and is switched over, for a cut scene or a crash, is no mistake.
+    report.unfit = UNFIT_TICKS;
     if !(rigid.velocity.is_finite() && rigid.spin.is_finite() && rigid.position.is_finite()) {
         return;
     }
@@ -162,9 +182,8 @@ pub(super) fn run(
     };
     let grounded = found.iter().filter(|f| f.contact.is_some()).count();
     let height = outside::height(&rigid, axes.up, &found);
-    let outside = outside::outside_forces(
-        s, config, &rigid, &axes, &asked, speed, grounded, height,
-    );
+    let outside =
+        outside::outside_forces(s, config, &rigid, &axes, &asked, speed, grounded, height);
     chassis.velocity += outside.force * rigid.inverse_mass * dt;
     chassis.spin += rigid.inverse_inertia * outside.torque * dt;
 

@@ -1,7 +1,7 @@
 //! The character controller, measured against closed forms, invariants and symmetries.
 
 mod support;
-mod warnings;
+pub mod warnings;
 
 mod bad_input;
 mod between;

@@ -250,8 +250,15 @@ fn a_body_with_locked_axes_is_solved_as_one() {
         sim.seconds(3.0);
         let side: f32 = car.all(&sim).iter().map(|w| w.force.y.abs()).sum();
         let x = car.pose(&sim).translation.x;
-        found.at_most(format!("{hz} Hz across: still"), car.velocity(&sim).linear.length(), 1.0e-3);
-        found.holds(format!("{hz} Hz across: finite {x} {side}"), car.finite(&sim));
+        found.at_most(
+            format!("{hz} Hz across: still"),
+            car.velocity(&sim).linear.length(),
+            1.0e-3,
+        );
+        found.holds(
+            format!("{hz} Hz across: finite {x} {side}"),
+            car.finite(&sim),
+        );
         let mut worst = 0.0f32;
         let before = car.loads(&sim);
         for _ in 0..hz as usize {

@@ -34,10 +34,7 @@ fn what_has_no_wheels_any_more_falls_on_its_hull() {
             }
         }),
         ("no vehicle any more", |sim, car| {
-            sim.app
-                .world_mut()
-                .entity_mut(car.body)
-                .remove::<Vehicle>();
+            sim.app.world_mut().entity_mut(car.body).remove::<Vehicle>();
         }),
         ("a wheel without its config", |sim, car| {
             sim.app
@@ -221,6 +218,7 @@ fn spoil(state: &mut VehicleState, bad: f32) {
         w.slip = bad;
         w.expected = Vec2::splat(bad);
         w.ground_force = Vec3::splat(bad);
+        w.ground_speed = Vec3::splat(bad);
         w.abs = bad;
         w.air_time = bad;
     }
@@ -277,8 +275,8 @@ fn a_wheel_is_seen_where_it_is_wherever_it_hangs_in_the_hierarchy() {
     for nested in [0, 1, 2, 3] {
         let mut sim = Sim::new(60.0);
         sim.floor(0.0);
-        let turned = Transform::from_xyz(30.0, 0.0, -10.0)
-            .with_rotation(Quat::from_rotation_y(1.0));
+        let turned =
+            Transform::from_xyz(30.0, 0.0, -10.0).with_rotation(Quat::from_rotation_y(1.0));
         let level = sim.spawn(turned);
         let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(2.0, HEIGHT, 3.0));
         insert(&mut sim, car.body, ChildOf(level));
@@ -368,5 +366,42 @@ fn helpers_of_no_numbers_neither_crash_nor_take_the_brakes() {
             found.holds(format!("{case}: finite"), car.finite(&sim));
             found.at_least(format!("{case}: brakes"), lost(&sim), 3.0);
         }
+    }
+}
+
+#[test]
+fn a_game_that_is_paused_goes_on_where_it_was() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let rotation = uphill(10.0);
+        let run = |pause: bool| {
+            let mut sim = Sim::new(hz);
+            plane(&mut sim, rotation);
+            let car = Plan::reference()
+                .direct(1000.0, |_| true)
+                .park(&mut sim, rotation);
+            car.ask(&mut sim, |i| {
+                i.throttle = 1.0;
+                i.steer = 0.2;
+            });
+            sim.seconds(2.0);
+            if pause {
+                sim.app.world_mut().resource_mut::<Time<Virtual>>().pause();
+                sim.ticks(100);
+                sim.app
+                    .world_mut()
+                    .resource_mut::<Time<Virtual>>()
+                    .unpause();
+            }
+            sim.seconds(1.0);
+            (car.pose(&sim), car.state(&sim))
+        };
+        let (through, paused) = (run(false), run(true));
+        let off = (through.0.translation - paused.0.translation).length();
+        // The clock may lose the tick in which it is stopped.
+        let tick = 12.0 / hz as f32;
+        found.at_most(format!("{hz} Hz: off"), off, tick);
+        let finite = paused.1.wheels.iter().all(|w| w.spin.is_finite());
+        found.holds(format!("{hz} Hz: finite"), finite);
     }
 }

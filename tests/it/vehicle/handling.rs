@@ -14,7 +14,10 @@ fn exact_step(a: f64, speed: f64, angle: f64, ticks: usize, dt: f64) -> Vec<f64>
     let rate = |slide: f64, yaw: f64| {
         let front = c * (angle - slide - a * yaw / speed);
         let rear = c * (-slide + b * yaw / speed);
-        ((front + rear) / (m * speed) - yaw, (a * front - b * rear) / i)
+        (
+            (front + rear) / (m * speed) - yaw,
+            (a * front - b * rear) / i,
+        )
     };
     let (mut slide, mut yaw) = (0.0, 0.0);
     let parts = 200;

@@ -97,46 +97,52 @@ fn seams_of_a_floor_are_not_felt() {
     }
 }
 
+/// A bridge of 20 planks of 0.5 m and 60 kg on hinges between two banks; `more` solver iterations.
+fn bridge(sim: &mut Sim, more: usize) -> Vec<Entity> {
+    let near = sim.block(Vec3::new(0.0, -0.5, 10.0), Vec3::new(8.0, 1.0, 20.0));
+    let far = sim.block(Vec3::new(0.0, -0.5, -20.0), Vec3::new(8.0, 1.0, 20.0));
+    let mut before = near;
+    let mut anchor = Vec3::new(0.0, 0.45, -10.0);
+    let hinge = |a: Vec3, b: Vec3| {
+        RevoluteJointBuilder::new(Vec3::X)
+            .local_anchor1(a)
+            .local_anchor2(b)
+    };
+    let mut planks = Vec::new();
+    for i in 0..20 {
+        let z = -0.25 - 0.5 * i as f32;
+        let plank = sim.dynamic(
+            Collider::cuboid(2.0, 0.05, 0.24),
+            Transform::from_xyz(0.0, -0.05, z),
+            60.0,
+        );
+        let joint = hinge(anchor, Vec3::new(0.0, 0.0, 0.25));
+        let iterations = AdditionalSolverIterations(more);
+        insert(sim, plank, (ImpulseJoint::new(before, joint), iterations));
+        before = plank;
+        anchor = Vec3::new(0.0, 0.0, -0.25);
+        planks.push(plank);
+    }
+    let last = hinge(Vec3::new(0.0, 0.0, -0.25), Vec3::new(0.0, 0.45, 10.0));
+    // One joint to an entity: the far bank holds the last plank.
+    insert(sim, far, ImpulseJoint::new(before, last));
+    planks
+}
+
+/// How far the lowest plank lies below the banks, metres.
+fn sag(sim: &Sim, planks: &[Entity]) -> f32 {
+    let lowest = planks.iter().map(|p| sim.position(*p).y);
+    -0.05 - lowest.fold(f32::MAX, f32::min)
+}
+
 #[test]
 fn a_bridge_of_planks_carries_a_car_over() {
-    bridge(&[60.0, 120.0, 240.0]);
-}
-
-#[test]
-#[ignore = "open defect: at 30 Hz the hinges of the planks give way by 1.3 m and the car stays in the middle"]
-fn a_bridge_of_planks_carries_a_car_over_at_thirty_ticks_per_second() {
-    bridge(&[30.0]);
-}
-
-fn bridge(rates: &[f64]) {
+    // At 30 ticks per second Rapier's hinges alone are too soft for any load of this weight: see the
+    // test below. With more iterations they hold.
     let mut found = Findings::new();
-    for &hz in rates {
+    for (hz, more) in [(30.0, 12), (60.0, 0), (120.0, 0), (240.0, 0)] {
         let mut sim = Sim::new(hz);
-        // Banks at both ends, 20 planks of 0.5 m and 60 kg on hinges between them.
-        let near = sim.block(Vec3::new(0.0, -0.5, 10.0), Vec3::new(8.0, 1.0, 20.0));
-        let far = sim.block(Vec3::new(0.0, -0.5, -20.0), Vec3::new(8.0, 1.0, 20.0));
-        let mut before = near;
-        let mut anchor = Vec3::new(0.0, 0.45, -10.0);
-        let hinge = |a: Vec3, b: Vec3| {
-            RevoluteJointBuilder::new(Vec3::X)
-                .local_anchor1(a)
-                .local_anchor2(b)
-        };
-        for i in 0..20 {
-            let z = -0.25 - 0.5 * i as f32;
-            let plank = sim.dynamic(
-                Collider::cuboid(2.0, 0.05, 0.24),
-                Transform::from_xyz(0.0, -0.05, z),
-                60.0,
-            );
-            let joint = hinge(anchor, Vec3::new(0.0, 0.0, 0.25));
-            insert(&mut sim, plank, ImpulseJoint::new(before, joint));
-            before = plank;
-            anchor = Vec3::new(0.0, 0.0, -0.25);
-        }
-        let last = hinge(Vec3::new(0.0, 0.0, -0.25), Vec3::new(0.0, 0.45, 10.0));
-        // One joint to an entity: the far bank holds the last plank.
-        insert(&mut sim, far, ImpulseJoint::new(before, last));
+        bridge(&mut sim, more);
         let plan = Plan::reference().direct(600.0, |_| true);
         let car = plan.spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 6.0));
         sim.seconds(2.0);
@@ -154,6 +160,35 @@ fn bridge(rates: &[f64]) {
         found.at_most(format!("{case}: over"), car.pose(&sim).translation.z, -12.0);
         found.at_least(format!("{case}: lowest"), lowest, HEIGHT - 1.5);
         found.at_most(format!("{case}: highest"), highest, HEIGHT + 0.5);
+    }
+}
+
+#[test]
+fn a_car_on_a_bridge_weighs_on_it_as_boxes_of_its_weight_do() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let planks = bridge(&mut sim, 0);
+        let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, -5.0));
+        car.ask(&mut sim, |i| i.brake = 1.0);
+        sim.seconds(8.0);
+        let by_car = sag(&sim, &planks);
+        let mut sim = Sim::new(hz);
+        let planks = bridge(&mut sim, 0);
+        for (x, z) in [(-0.8, -1.4), (0.8, -1.4), (-0.8, 1.4), (0.8, 1.4)] {
+            sim.dynamic(
+                Collider::cuboid(0.1, 0.1, 0.1),
+                Transform::from_xyz(x, 0.11, z - 5.0),
+                MASS / 4.0,
+            );
+        }
+        sim.seconds(8.0);
+        let by_boxes = sag(&sim, &planks);
+        // Boxes lie on the planks with corners, a car on what is under its wheels: not the same to a
+        // centimetre, but no heavier.
+        let case = format!("{hz} Hz: {by_boxes} m under boxes, under a car");
+        found.at_most(&case, by_car, 1.15 * by_boxes);
+        found.at_least(case, by_car, 0.6 * by_boxes);
     }
 }
 
@@ -180,7 +215,7 @@ fn loop_of(radius: f32) -> Collider {
 fn a_loop_is_driven_through_by_who_is_fast_enough() {
     // At least √(5 g R) = 31.3 m/s at the bottom of 20 m, and 14 m/s at the top.
     let mut found = Findings::new();
-    for hz in [60.0, 120.0, 240.0] {
+    for hz in RATES {
         for (speed, makes_it) in [(36.0, true), (20.0, false)] {
             let mut sim = Sim::new(hz);
             sim.block(Vec3::new(0.0, -0.5, 60.0), Vec3::new(30.0, 1.0, 120.0));

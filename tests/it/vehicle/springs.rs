@@ -145,3 +145,35 @@ fn sag_on_a_lift_is_that_on_the_ground() {
         }
     }
 }
+
+#[test]
+fn an_undamped_drop_compresses_the_springs_as_far_as_its_energy_says() {
+    // (m g + √((m g)² + 2 k m g H)) / k with k = 133 240 N/m: 0.46, 0.59 and 0.78 m.
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (height, wanted) in [(0.5f32, 0.46f32), (1.0, 0.59), (2.0, 0.78)] {
+            let mut sim = Sim::new(hz);
+            sim.floor(0.0);
+            let travel = 1.2;
+            let plan = Plan::reference()
+                .suspension(|s| {
+                    s.travel = travel;
+                    s.stop_stiffness = 0.0;
+                    s.damping = Damper::Ratio {
+                        bump: 0.0,
+                        rebound: 0.0,
+                    };
+                })
+                .wheel(|_, w| w.attachment.y = 0.0);
+            // The hub hangs the travel below the origin, a radius above the ground.
+            let touch = travel + RADIUS;
+            let car = plan.spawn(&mut sim, Transform::from_xyz(0.0, touch + height, 0.0));
+            let mut lowest = f32::MAX;
+            for _ in 0..(1.5 * hz) as usize {
+                sim.ticks(1);
+                lowest = lowest.min(car.pose(&sim).translation.y);
+            }
+            found.within(format!("{hz} Hz {height} m"), touch - lowest, wanted, 0.03);
+        }
+    }
+}
