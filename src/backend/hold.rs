@@ -6,7 +6,10 @@
 use bevy::prelude::*;
 use bevy_rapier3d::{
     prelude::RapierRigidBodyHandle,
-    rapier::{dynamics::RigidBody, geometry::ContactManifold},
+    rapier::{
+        dynamics::RigidBody,
+        geometry::{Collider, ContactManifold},
+    },
 };
 
 use super::world::PhysicsView;
@@ -87,7 +90,7 @@ impl PhysicsView<'_> {
                     pair.collider1
                 };
                 let other = self.colliders.colliders.get(other);
-                if other.and_then(|c| c.parent()) == Some(own.0) {
+                if other.and_then(Collider::parent) == Some(own.0) {
                     continue;
                 }
                 for manifold in pair.solver_manifolds() {

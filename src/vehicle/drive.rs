@@ -74,6 +74,8 @@ pub(super) fn solve_vehicles(
             let report = report.bypass_change_detection();
             if !report.valid {
                 report.clear();
+                report.bare = true;
+                telemetry.set_if_neq(VehicleTelemetry::default());
                 return;
             }
             let Some(view) = worlds.of(link).filter(|view| view.active) else {
@@ -103,6 +105,7 @@ pub(super) fn solve_vehicles(
             }
             if list.is_empty() {
                 report.clear();
+                report.bare = true;
                 return;
             }
             let surroundings = Surroundings {
@@ -134,6 +137,9 @@ pub(super) fn solve_vehicles(
                     scratch,
                 );
             });
+            if report.bare {
+                telemetry.set_if_neq(VehicleTelemetry::default());
+            }
             if report.solved {
                 state.set_changed();
                 telemetry.set_changed();

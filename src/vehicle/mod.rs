@@ -10,6 +10,10 @@
 //! parked car stays where it is on a slope by the stretch of its tyres, awake or asleep; no stiffness,
 //! brake torque or engine makes it unstable at 30 ticks per second.
 //!
+//! What lies under a wheel gives way as far as nothing else holds it: a crate in the air flies off, the
+//! same crate on the floor carries its wheel. A wheel that finds itself in the ground, or under a step
+//! that it cannot climb, is pushed out at no more than 3 m/s.
+//!
 //! Limits: wheels have no mass of their own but for spin and the speed of droop; no gyroscopic
 //! torque of wheels; suspension links are straight lines.
 

@@ -6,7 +6,8 @@ use bevy::prelude::*;
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 pub struct VehicleTelemetry {
-    /// Speed along its front, metres per second, negative backward.
+    /// Speed along its front against the ground that it stands or last stood on, metres per second,
+    /// negative backward.
     pub speed: f32,
     /// Engine speed, revolutions per minute.
     pub rpm: f32,

@@ -24,8 +24,8 @@ pub(super) fn write_wheels(
                     *state = *out;
                 }
             }
-        } else if !report.asleep {
-            // A body without wheels: they touch nothing and carry nothing.
+        } else if report.bare {
+            // They touch nothing and carry nothing.
             for wheel in tied.iter() {
                 if let Ok(mut state) = wheels.get_mut(wheel) {
                     state.set_if_neq(WheelState::default());

@@ -18,6 +18,8 @@ pub(crate) struct VehicleReport {
     /// Whether the vehicle was solved this tick.
     pub solved: bool,
     pub asleep: bool,
+    /// Whether it is a body without wheels for now.
+    pub bare: bool,
     /// Whether something about the vehicle changed that a sleeper has to look at.
     pub changed: bool,
     /// Ticks for which the body was none that wheels can carry, at most [`UNFIT_TICKS`].
@@ -51,6 +53,7 @@ impl Default for VehicleReport {
             valid: false,
             solved: false,
             asleep: false,
+            bare: false,
             changed: true,
             unfit: 0,
             wake: false,
@@ -77,6 +80,7 @@ impl VehicleReport {
     pub fn clear(&mut self) {
         self.solved = false;
         self.asleep = false;
+        self.bare = false;
         self.force = Vec3::ZERO;
         self.torque = Vec3::ZERO;
         self.pushes.clear();

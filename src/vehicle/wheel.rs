@@ -53,6 +53,14 @@ pub struct Wheel {
 impl Wheel {
     /// The most wheels a vehicle can have.
     pub const MOST: usize = super::solve::MOST_WHEELS;
+
+    /// The same wheel with the inertia of a solid disc of this mass (kilograms) and its radius, and with
+    /// the mass as that which follows the ground.
+    pub fn with_mass(mut self, mass: f32) -> Self {
+        self.inertia = 0.5 * mass * self.radius * self.radius;
+        self.suspension.unsprung_mass = mass;
+        self
+    }
 }
 
 impl Default for Wheel {

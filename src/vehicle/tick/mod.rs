@@ -126,6 +126,7 @@ pub(super) fn run(
 ) {
     report.clear();
     let Some(rigid) = s.view.rigid(s.handle) else {
+        report.bare = true;
         if report.unfit < UNFIT_TICKS
             && let Some((what, need)) = s.view.unfit(s.handle)
         {
