@@ -55,7 +55,7 @@ fn locked_wheels_stop_within_the_distance_of_friction() {
 #[test]
 fn any_brake_torque_stops_within_friction_and_on_the_wheels() {
     let mut found = Findings::new();
-    for hz in [30.0, 60.0, 240.0] {
+    for hz in RATES {
         for torque in [1.0e5, 1.0e7, 1.0e9] {
             let mut plan = Plan::reference();
             plan.vehicle.brakes.torque = torque;

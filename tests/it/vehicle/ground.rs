@@ -210,7 +210,7 @@ fn a_scene_that_moves_as_a_whole_is_the_same_scene() {
 #[test]
 fn a_car_on_a_seesaw_tips_it() {
     let mut found = Findings::new();
-    for hz in [60.0, 240.0] {
+    for hz in RATES {
         let mut sim = Sim::new(hz);
         sim.floor(-3.0);
         let anchor = sim.block(Vec3::new(0.0, -2.0, 0.0), Vec3::new(1.0, 1.0, 1.0));

@@ -132,7 +132,7 @@ fn a_released_car_moves_on_the_next_tick_and_rolls_with_its_effective_mass() {
 fn a_handbrake_holds_by_the_load_of_its_axle_alone() {
     // Facing uphill the rear axle carries N_r = m g (cos θ / 2 + h / L sin θ); it holds if µ N_r > m g sin θ.
     let mut found = Findings::new();
-    for hz in [30.0, 240.0] {
+    for hz in RATES {
         for (angle, friction, holds) in [(15.0, 0.6, true), (15.0, 0.4, false)] {
             let rotation = uphill(angle);
             let mut sim = Sim::new(hz);

@@ -204,7 +204,7 @@ fn a_loose_step_of_five_centimetres_is_crossed() {
 }
 
 #[test]
-fn a_kerb_throws_a_ray_no_harder_than_its_stop_and_a_cylinder_less() {
+fn a_kerb_of_fifteen_centimetres_throws_neither_a_ray_nor_a_cylinder() {
     let mut found = Findings::new();
     for hz in RATES {
         let run = |probe| {

@@ -29,7 +29,7 @@ fn ask(sim: &mut Sim, entity: Entity, change: impl FnOnce(&mut VehicleIntent)) {
 fn every_preset_stands_at_its_height_drives_off_and_stops() {
     let mut found = Findings::new();
     for (name, preset) in VehiclePreset::all() {
-        for hz in [30.0, 60.0, 240.0] {
+        for hz in RATES {
             let mut sim = Sim::new(hz);
             plane(&mut sim, Quat::IDENTITY);
             let car = spawn(&mut sim, &preset, name);
@@ -81,7 +81,7 @@ fn every_preset_turns_to_the_side_it_is_steered_to() {
 #[test]
 fn a_tracked_vehicle_turns_on_the_spot() {
     let mut found = Findings::new();
-    for hz in [30.0, 240.0] {
+    for hz in RATES {
         let mut sim = Sim::new(hz);
         plane(&mut sim, Quat::IDENTITY);
         let tank = spawn(&mut sim, &VehiclePreset::tracked(), "tracked vehicle");

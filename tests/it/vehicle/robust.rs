@@ -21,7 +21,7 @@ fn energy(sim: &Sim, car: &Car, plan: &Plan) -> f32 {
 #[test]
 fn no_stiffness_or_damping_makes_a_dropped_car_gain_energy() {
     let mut found = Findings::new();
-    for hz in [30.0, 60.0, 240.0] {
+    for hz in RATES {
         for stiffness in [1.0e3, 1.0e5, 1.0e6, 1.0e7, 1.0e8] {
             for damping in [0.0, 1.0e3, 1.0e5, 1.0e7] {
                 let plan = Plan::reference().suspension(|s| {
@@ -132,7 +132,7 @@ fn random_vehicles_stay_finite_and_gain_no_energy_without_input() {
 #[test]
 fn a_tick_of_a_tenth_of_a_second_among_others_does_no_harm() {
     let mut found = Findings::new();
-    for hz in [60.0, 240.0] {
+    for hz in RATES {
         let mut sim = Sim::new(hz);
         plane(&mut sim, Quat::IDENTITY);
         let plan = Plan::reference().direct(1500.0, |_| true);
@@ -205,7 +205,7 @@ fn a_wheel_does_not_climb_a_wall_beside_it() {
 #[test]
 fn an_intent_that_is_no_number_is_taken_as_nothing_asked() {
     let mut found = Findings::new();
-    for hz in [30.0, 240.0] {
+    for hz in RATES {
         for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
             let mut sim = Sim::new(hz);
             sim.floor(0.0);

@@ -63,7 +63,7 @@ fn cornering_moves_load_to_the_outer_side_by_height_over_track() {
 #[test]
 fn an_anti_roll_bar_moves_load_to_its_axle_and_none_across_the_car() {
     let mut found = Findings::new();
-    for hz in [30.0, 240.0] {
+    for hz in RATES {
         let mut share = Vec::new();
         for bar in [0.0, 30_000.0] {
             let mut sim = Sim::new(hz);
