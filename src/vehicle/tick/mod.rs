@@ -24,10 +24,7 @@ use super::{
     surface::{RoadVelocity, SurfaceFriction},
     wheel::Wheel,
 };
-use crate::{
-    backend::{handles::RapierRigidBodyHandle, rigid::Rigid, world::PhysicsView},
-    validate::warn_bad,
-};
+use crate::backend::{handles::RapierRigidBodyHandle, rigid::Rigid, world::PhysicsView};
 
 pub(super) use sense::Found;
 
@@ -132,7 +129,7 @@ pub(super) fn run(
         {
             report.unfit += 1;
             if report.unfit == UNFIT_TICKS {
-                warn_bad(
+                crate::validate::warn_bad(
                     s.entity,
                     what,
                     "none that wheels can carry",
