@@ -45,7 +45,6 @@ impl PhysicsWorlds<'_, '_> {
             simulation,
             colliders,
             bodies,
-            #[cfg(feature = "vehicle")]
             joints,
             gravity: config.gravity,
             active: config.physics_pipeline_active,
@@ -59,7 +58,10 @@ pub(crate) struct PhysicsView<'a> {
     pub(super) simulation: &'a RapierContextSimulation,
     pub(super) colliders: &'a RapierContextColliders,
     pub(super) bodies: &'a RapierRigidBodySet,
-    #[cfg(feature = "vehicle")]
+    #[cfg_attr(
+        not(feature = "vehicle"),
+        expect(dead_code, reason = "what only vehicles ask")
+    )]
     pub(super) joints: &'a RapierContextJoints,
     pub gravity: Vec3,
     /// Whether the world is stepped.
