@@ -22,6 +22,7 @@ mod run;
 mod scene;
 mod side;
 mod stats;
+mod subject;
 
 use std::process::ExitCode;
 
@@ -49,8 +50,8 @@ fn main() -> ExitCode {
         Command::Peers(options) => peers::run(&options),
         Command::Profile(options) => run::run(&options).map(|()| ExitCode::SUCCESS),
         Command::Scenes => {
-            for scene in scene::SCENES {
-                println!("{:12} {}", scene.name, scene.about);
+            for (_, scene) in subject::all_scenes() {
+                println!("{:18} {}", scene.name, scene.about);
             }
             Ok(ExitCode::SUCCESS)
         }

@@ -6,6 +6,8 @@ pub mod harness;
 #[cfg(feature = "window")]
 pub mod shell;
 pub mod stations;
+pub mod terrain;
+pub mod traffic;
 pub mod wavy;
 
 pub use builders::{FloorKind, Make, Mover, Patch, StairCeiling, Stairs};
