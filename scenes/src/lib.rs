@@ -3,6 +3,7 @@
 pub mod builders;
 pub mod course;
 pub mod harness;
+pub mod reference;
 #[cfg(feature = "window")]
 pub mod shell;
 pub mod stations;

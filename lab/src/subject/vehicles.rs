@@ -2,18 +2,7 @@
 
 use bevy::{ecs::world::CommandQueue, prelude::*};
 use bevy_embody::prelude::*;
-use bevy_rapier3d::{
-    plugin::context::{
-        RapierContextColliders, RapierContextEntityLink, RapierContextSimulation,
-        RapierRigidBodySet,
-    },
-    prelude::*,
-    rapier::{
-        control::{DynamicRayCastVehicleController, WheelTuning},
-        parry::query::DefaultQueryDispatcher,
-        prelude::QueryFilter as RapierFilter,
-    },
-};
+use bevy_rapier3d::prelude::*;
 use embody_scenes::{
     Sim,
     terrain::StableId,
@@ -22,6 +11,7 @@ use embody_scenes::{
 
 use super::{Bounds, Seen, Subject, Variant};
 use crate::{
+    peer::{Peer, peer, update_controllers},
     probe::{begin, end},
     scene::Scene,
     side::Side,
@@ -140,110 +130,25 @@ fn spawn(side: Side, world: &mut World, car: &VehiclePreset, at: Transform, extr
             queue.apply(world);
             entity
         }
-        Side::Rapier => world.spawn((peer(car), at)).id(),
+        Side::Rapier => {
+            let half = car.hull * 0.5;
+            let hull = Collider::compound(vec![(
+                car.hull_center,
+                Quat::IDENTITY,
+                Collider::cuboid(half.x, half.y, half.z),
+            )]);
+            world.spawn((peer(&car.mass, hull, &car.wheels), at)).id()
+        }
     };
     world
         .entity_mut(entity)
         .insert((Velocity::default(), extra));
 }
 
-/// The same body for Rapier's controller, which is made once the body is.
-fn peer(car: &VehiclePreset) -> impl Bundle {
-    let half = car.hull * 0.5;
-    (
-        RigidBody::Dynamic,
-        Ccd::enabled(),
-        Collider::compound(vec![(
-            car.hull_center,
-            Quat::IDENTITY,
-            Collider::cuboid(half.x, half.y, half.z),
-        )]),
-        ColliderMassProperties::Density(0.0),
-        AdditionalMassProperties::MassProperties(MassProperties {
-            local_center_of_mass: car.mass.center,
-            mass: car.mass.mass,
-            principal_inertia_local_frame: Quat::IDENTITY,
-            principal_inertia: car.mass.inertia,
-        }),
-        Peer::default(),
-    )
-}
-
-#[derive(Component, Default)]
-struct Peer(Option<DynamicRayCastVehicleController>);
-
-/// Wheels at the same places with the same springs and friction.
-fn controller(
-    car: &VehiclePreset,
-    body: &RapierRigidBodyHandle,
-) -> DynamicRayCastVehicleController {
-    let mut controller = DynamicRayCastVehicleController::new(body.0);
-    controller.index_forward_axis = 2;
-    let quarter = car.mass.mass / car.wheels.len() as f32;
-    for wheel in &car.wheels {
-        let SpringRate::RideFrequency(hz) = wheel.suspension.spring else {
-            continue;
-        };
-        let Damper::Ratio { bump, rebound } = wheel.suspension.damping else {
-            continue;
-        };
-        let w = core::f32::consts::TAU * hz;
-        // Per kilogram of the whole car.
-        let damping = 2.0 * w * quarter / car.mass.mass;
-        let tuning = WheelTuning {
-            suspension_stiffness: w * w * quarter / car.mass.mass,
-            suspension_compression: bump * damping,
-            suspension_damping: rebound * damping,
-            max_suspension_travel: wheel.suspension.travel,
-            side_friction_stiffness: 1.0,
-            friction_slip: wheel.tire.friction.x,
-            max_suspension_force: 1.0e6,
-        };
-        controller.add_wheel(
-            wheel.attachment,
-            Vec3::NEG_Y,
-            Vec3::X,
-            wheel.suspension.travel,
-            wheel.radius,
-            &tuning,
-        );
-    }
-    controller
-}
-
 #[derive(Resource)]
 struct Fleet {
     car: VehiclePreset,
     wheelbase: f32,
-}
-
-/// What a game does for Rapier's controllers: each has the whole world's queries to itself in turn.
-fn update_controllers(
-    time: Res<Time>,
-    mut worlds: Query<(
-        &mut RapierContextSimulation,
-        &mut RapierContextColliders,
-        &mut RapierRigidBodySet,
-    )>,
-    mut peers: Query<(&mut Peer, &RapierContextEntityLink, &RapierRigidBodyHandle)>,
-    fleet: Res<Fleet>,
-) {
-    let dt = time.delta_secs();
-    for (mut peer, link, body) in &mut peers {
-        let Ok((simulation, mut colliders, mut bodies)) = worlds.get_mut(link.0) else {
-            continue;
-        };
-        let controller = peer.0.get_or_insert_with(|| controller(&fleet.car, body));
-        let queries = simulation.broad_phase.as_query_pipeline_mut(
-            &DefaultQueryDispatcher,
-            &mut bodies.bodies,
-            &mut colliders.colliders,
-            RapierFilter::default()
-                .exclude_rigid_body(body.0)
-                .exclude_sensors(),
-        );
-        controller.update_vehicle(dt, queries);
-    }
 }
 
 fn traffic(sim: &mut Sim, side: Side, count: u32, probe: WheelProbe) {
@@ -300,43 +205,19 @@ fn steer_ours(fleet: Res<Fleet>, mut cars: Query<(&Driver, &Velocity, &mut Vehic
     let steering = &fleet.car.vehicle.steering;
     for (driver, velocity, mut intent) in &mut cars {
         // The wheel turns less at speed: asked for so that the angle is the driver's.
-        let most = steering.max_angle * part(steering, velocity.linear.length());
+        let most = steering.target(1.0, velocity.linear.length());
         intent.throttle = driver.throttle;
         intent.brake = driver.brake;
         intent.steer = (driver.angle / most).clamp(-1.0, 1.0);
     }
 }
 
-/// Part of the steering angle that is left at a speed.
-fn part(steering: &Steering, speed: f32) -> f32 {
-    let mut before = SteerPoint {
-        speed: 0.0,
-        part: 1.0,
-    };
-    for point in &steering.speed_curve {
-        if speed < point.speed {
-            let t = (speed - before.speed) / (point.speed - before.speed);
-            return before.part + t * (point.part - before.part);
-        }
-        before = *point;
-    }
-    before.part
-}
-
 fn steer_peers(fleet: Res<Fleet>, mut cars: Query<(&Driver, &mut Peer)>) {
-    let car = &fleet.car;
+    let weight = fleet.car.mass.mass * 9.81;
     for (driver, mut peer) in &mut cars {
-        let Some(controller) = &mut peer.0 else {
-            continue;
-        };
-        for (wheel, config) in controller.wheels_mut().iter_mut().zip(&car.wheels) {
-            // About the way up: to the left is positive.
-            wheel.steering = -driver.angle * config.steer;
-            // A sports car's 0.8 g on its driven wheels, and its 1 g of brakes as an impulse each tick.
-            let driven = if config.driven { 0.5 } else { 0.0 };
-            wheel.engine_force = driver.throttle * driven * 0.8 * 9.81 * car.mass.mass;
-            wheel.brake = driver.brake * 0.25 * 9.81 * car.mass.mass / 60.0;
-        }
+        // A sports car's 0.8 g, and its 1 g of brakes as an impulse of each wheel in a tick.
+        let brake = driver.brake * 0.25 * weight / 60.0;
+        peer.ask(driver.angle, driver.throttle * 0.8 * weight, brake);
     }
 }
 
