@@ -25,9 +25,13 @@ pub const SAG: f32 = 0.110_44;
 /// The reference car: its vehicle, mass and wheels (front left, front right, rear left, rear right).
 #[derive(Clone)]
 pub struct Plan {
+    /// The vehicle.
     pub vehicle: Vehicle,
+    /// Its mass.
     pub mass: VehicleMass,
+    /// Front left, front right, rear left, rear right.
     pub wheels: Vec<Wheel>,
+    /// Its collider.
     pub hull: Collider,
 }
 
@@ -102,6 +106,7 @@ impl Plan {
         self
     }
 
+    /// Tyres of its own kind on every wheel.
     pub fn tire(mut self, change: impl Fn(&mut Tire)) -> Self {
         for wheel in &mut self.wheels {
             change(&mut wheel.tire);
@@ -109,6 +114,7 @@ impl Plan {
         self
     }
 
+    /// Changes every wheel, by its number.
     pub fn wheel(mut self, change: impl Fn(usize, &mut Wheel)) -> Self {
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
             change(i, wheel);
@@ -159,31 +165,39 @@ impl Plan {
 /// A spawned car.
 #[derive(Clone)]
 pub struct Car {
+    /// The vehicle.
     pub body: Entity,
+    /// In the order of the plan.
     pub wheels: Vec<Entity>,
 }
 
 impl Car {
+    /// What a wheel did in the last tick.
     pub fn wheel(&self, sim: &Sim, i: usize) -> WheelState {
         sim.get::<WheelState>(self.wheels[i])
     }
 
+    /// What all wheels did.
     pub fn all(&self, sim: &Sim) -> Vec<WheelState> {
         (0..self.wheels.len()).map(|i| self.wheel(sim, i)).collect()
     }
 
+    /// Load of each wheel, newtons.
     pub fn loads(&self, sim: &Sim) -> Vec<f32> {
         self.all(sim).iter().map(|w| w.load).collect()
     }
 
+    /// Changes what is asked of it.
     pub fn ask(&self, sim: &mut Sim, change: impl FnOnce(&mut VehicleIntent)) {
         edit(sim, self.body, change);
     }
 
+    /// Its velocity.
     pub fn velocity(&self, sim: &Sim) -> Velocity {
         sim.get::<Velocity>(self.body)
     }
 
+    /// Sets its velocity, metres per second.
     pub fn push(&self, sim: &mut Sim, velocity: Vec3) {
         edit::<Velocity>(sim, self.body, |v| v.linear = velocity);
     }
@@ -199,14 +213,17 @@ impl Car {
         });
     }
 
+    /// Where it is.
     pub fn pose(&self, sim: &Sim) -> Transform {
         sim.get::<Transform>(self.body)
     }
 
+    /// What it did in the last tick.
     pub fn telemetry(&self, sim: &Sim) -> VehicleTelemetry {
         sim.get::<VehicleTelemetry>(self.body)
     }
 
+    /// Its state.
     pub fn state(&self, sim: &Sim) -> VehicleState {
         sim.get::<VehicleState>(self.body)
     }
@@ -235,8 +252,9 @@ pub fn edit<C: Component<Mutability = bevy::ecs::component::Mutable>>(
     entity: Entity,
     change: impl FnOnce(&mut C),
 ) {
-    let mut entity = sim.app.world_mut().entity_mut(entity);
-    change(&mut entity.get_mut::<C>().expect("the component is there"));
+    if let Some(mut component) = sim.app.world_mut().get_mut::<C>(entity) {
+        change(&mut component);
+    }
 }
 
 /// Adds components to an entity.

@@ -17,7 +17,8 @@ use crate::peer::{peer, update_controllers};
 
 const RATES: [f64; 5] = [30.0, 60.0, 120.0, 240.0, 480.0];
 const RATIO: f64 = 0.5;
-const LEAST: f64 = 1.0e4;
+/// Softer springs would lie on their stops, newtons per metre.
+const LEAST: f64 = 2.0e4;
 const MOST: f64 = 1.0e10;
 /// How far above its rest a car starts, metres.
 const DROP: f32 = 0.01;

@@ -60,29 +60,28 @@ impl Area<'_> {
 #[derive(Default)]
 pub(crate) struct Nodes {
     /// All boxes together.
-    whole: Option<(Aabb, BvhNode)>,
-    parts: ArrayVec<BvhNode, MOST_BOXES>,
+    whole: Option<Aabb>,
+    parts: ArrayVec<Aabb, MOST_BOXES>,
 }
 
 impl Nodes {
     fn add(&mut self, part: Aabb) {
-        let whole = self.whole.map_or(part, |(whole, _)| whole.merged(&part));
-        self.whole = Some((whole, BvhNode::leaf(whole, 0)));
-        self.parts.push(BvhNode::leaf(part, 0));
+        let whole = self.whole.map_or(part, |whole| whole.merged(&part));
+        self.whole = Some(whole);
+        self.parts.push(part);
     }
 
     /// Whether a node of the tree reaches into the area.
     #[inline]
     pub fn meet(&self, node: &BvhNode) -> bool {
-        let Some((_, whole)) = &self.whole else {
-            return false;
-        };
-        node.intersects(whole)
-            && (self.parts.len() == 1 || self.parts.iter().any(|part| node.intersects(part)))
+        let (low, high) = (node.mins(), node.maxs());
+        let meets = |b: &Aabb| low.cmple(b.maxs).all() && high.cmpge(b.mins).all();
+        self.whole.as_ref().is_some_and(meets)
+            && (self.parts.len() == 1 || self.parts.iter().any(meets))
     }
 
     fn aabb(&self) -> Option<Aabb> {
-        self.whole.map(|(aabb, _)| aabb)
+        self.whole
     }
 }
 
