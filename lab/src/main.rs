@@ -12,8 +12,10 @@
     reason = "a command line tool"
 )]
 
+mod accuracy;
 mod alloc;
 mod bounds;
+mod peer;
 mod peers;
 mod probe;
 mod process;
@@ -21,7 +23,10 @@ mod readme;
 mod run;
 mod scene;
 mod side;
+mod stability;
 mod stats;
+mod subject;
+mod table;
 
 use std::process::ExitCode;
 
@@ -38,6 +43,10 @@ struct Cli {
 enum Command {
     /// Cost beside Rapier's own controller, speed-up by threads, scaling, idle cost, allocations.
     Peers(peers::Options),
+    /// Where explicit integration breaks, and ours does not.
+    Stability(stability::Options),
+    /// What comes out beside closed forms, of ours and of Rapier's controller.
+    Accuracy(accuracy::Options),
     /// Runs one world in this process, for a profiler or by hand.
     Profile(run::Options),
     /// Lists the scenes.
@@ -47,10 +56,12 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Peers(options) => peers::run(&options),
+        Command::Stability(options) => stability::run(&options),
+        Command::Accuracy(options) => accuracy::run(&options),
         Command::Profile(options) => run::run(&options).map(|()| ExitCode::SUCCESS),
         Command::Scenes => {
-            for scene in scene::SCENES {
-                println!("{:12} {}", scene.name, scene.about);
+            for (_, scene) in subject::all_scenes() {
+                println!("{:18} {}", scene.name, scene.about);
             }
             Ok(ExitCode::SUCCESS)
         }

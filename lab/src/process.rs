@@ -21,7 +21,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         .args(["--scene", &options.scene])
         .args(["--only", &side])
         .args(["--threads", &options.threads.to_string()])
-        .args(["--characters", &options.characters.to_string()])
+        .args(["--count", &options.count.to_string()])
         .args(["--steps", &options.steps.to_string()]);
     if let Some(warm_up) = options.warm_up {
         command.args(["--warm-up", &warm_up.to_string()]);

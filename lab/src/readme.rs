@@ -2,26 +2,32 @@
 
 use std::{fs, path::Path};
 
-const BEGIN: &str = "<!-- bench:begin -->";
-const END: &str = "<!-- bench:end -->";
-
-/// Replaces what stands between the comments.
-pub fn replace_table(file: &Path, table: &str) -> Result<(), String> {
+/// Replaces what stands between the comments of this name.
+pub fn replace_table(file: &Path, name: &str, table: &str) -> Result<(), String> {
     let shown = file.display();
     let page = fs::read_to_string(file).map_err(|error| format!("{shown}: {error}"))?;
-    let page =
-        splice(&page, table).ok_or_else(|| format!("{shown} has no `{BEGIN}` before `{END}`"))?;
+    let page = splice(&page, name, table)
+        .ok_or_else(|| format!("{shown} has no `{}` before `{}`", begin(name), end(name)))?;
     fs::write(file, page).map_err(|error| format!("{shown}: {error}"))
 }
 
-fn splice(page: &str, table: &str) -> Option<String> {
-    let begin = page.find(BEGIN)? + BEGIN.len();
-    let end = begin + page[begin..].find(END)?;
+fn begin(name: &str) -> String {
+    format!("<!-- {name}:begin -->")
+}
+
+fn end(name: &str) -> String {
+    format!("<!-- {name}:end -->")
+}
+
+fn splice(page: &str, name: &str, table: &str) -> Option<String> {
+    let (open, close) = (begin(name), end(name));
+    let from = page.find(&open)? + open.len();
+    let to = from + page[from..].find(&close)?;
     Some(format!(
         "{}\n{}\n{}",
-        &page[..begin],
+        &page[..from],
         table.trim_end(),
-        &page[end..]
+        &page[to..]
     ))
 }
 
@@ -30,11 +36,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_between_the_comments_changes() {
-        let page = format!("a\n{BEGIN}\nold\n{END}\nb\n");
-        let new = splice(&page, "new\n").unwrap_or_default();
-        assert_eq!(new, format!("a\n{BEGIN}\nnew\n{END}\nb\n"));
-        assert_eq!(splice(&new, "new"), Some(new.clone()));
-        assert_eq!(splice("no comments", "new"), None);
+    fn only_what_is_between_the_comments_of_the_name_changes() {
+        let other = "<!-- b:begin -->\nother\n<!-- b:end -->";
+        let page = format!("a\n{other}\n<!-- a:begin -->\nold\n<!-- a:end -->\nb\n");
+        let new = splice(&page, "a", "new\n").unwrap_or_default();
+        assert_eq!(
+            new,
+            format!("a\n{other}\n<!-- a:begin -->\nnew\n<!-- a:end -->\nb\n")
+        );
+        assert_eq!(splice(&new, "a", "new"), Some(new.clone()));
+        assert_eq!(splice("no comments", "a", "new"), None);
     }
 }

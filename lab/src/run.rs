@@ -9,16 +9,13 @@ use bevy::{
 };
 use bevy_embody::EmbodyCorePlugin;
 use clap::Args;
-use embody_scenes::{
-    Sim,
-    wavy::{LOWEST, StableId, Walker},
-};
+use embody_scenes::{Sim, terrain::StableId};
 use serde::{Deserialize, Serialize};
 
 use crate::{
     probe::{Probe, on_processor},
-    scene,
-    side::{Side, SidePlugin},
+    side::Side,
+    subject::{self, Subject},
 };
 
 /// Which world, and for how long.
@@ -33,9 +30,9 @@ pub struct Options {
     /// Threads that compute; on one, systems run one after another without an executor's threads.
     #[arg(long, default_value_t = 1)]
     pub threads: usize,
-    /// Number of characters.
+    /// How many.
     #[arg(long, default_value_t = 100)]
-    pub characters: u32,
+    pub count: u32,
     /// Ticks of 1/60 s that are measured.
     #[arg(long, default_value_t = 500)]
     pub steps: usize,
@@ -50,25 +47,25 @@ pub struct Options {
 /// What a world cost.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Measured {
-    /// The characters' work, nanoseconds in each tick: time that passed.
+    /// The controllers' work, nanoseconds in each tick: time that passed.
     pub wall: Vec<u64>,
     /// The same, but time that the thread was on a processor; of meaning on one thread only.
     pub busy: Vec<u64>,
     /// A whole update of the app, nanoseconds in each tick; on one thread its time on a processor.
     pub whole: Vec<u64>,
-    /// Heap allocations during the characters' work, in each tick.
+    /// Heap allocations during the controllers' work, in each tick.
     pub allocations: Vec<u64>,
     /// Hash of where everything that moves is in the end.
     pub hash: u64,
-    /// Mean level way of a walker in a tick, of what it wished for: shows that they do walk.
+    /// Mean level way in a tick, of what was wished for: shows that they do move.
     pub progress: f64,
-    /// Fastest that a walker went, metres per second.
+    /// Fastest that anyone went, metres per second.
     pub fastest: f32,
-    /// Characters that left the level: fell below the ground, or were thrown high up.
+    /// Who left the level: fell below the ground, was thrown high up, or fell over.
     pub lost: Vec<Lost>,
 }
 
-/// Where a character was before and after it left the level.
+/// Where somebody was before and after it left the level.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Lost {
     pub id: u32,
@@ -86,14 +83,14 @@ pub fn run(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     let mean = |of: &[u64]| of.iter().sum::<u64>() as f64 / of.len().max(1) as f64 * 1e-3;
-    let n = f64::from(options.characters.max(1));
+    let n = f64::from(options.count.max(1));
     println!(
         "profile {} side={} threads={} n={} steps={} us={:.3} busy={:.3}us update={:.1}us allocations={} \
          progress={:.2} fastest={:.1}m/s lost={} hash={:016x}",
         options.scene,
         options.only.name(),
         options.threads,
-        options.characters,
+        options.count,
         options.steps,
         mean(&measured.wall) / n,
         mean(&measured.busy) / n,
@@ -115,13 +112,18 @@ pub fn run(options: &Options) -> Result<(), String> {
 
 /// Builds the world and runs it.
 pub fn measure(options: &Options) -> Result<Measured, String> {
-    let scene = scene::find(&options.scene)?;
+    let (subject, scene) = subject::find_scene(&options.scene)?;
     if options.threads == 0 {
         return Err("there must be at least one thread".into());
     }
     create_pools(options.threads);
-    let mut sim = Sim::with(60.0, (EmbodyCorePlugin, SidePlugin(options.only)));
-    (scene.build)(&mut sim, options.only, options.characters);
+    let side = options.only;
+    let plugin = move |app: &mut App| {
+        app.init_resource::<Probe>();
+        (subject.plugin)(app, side);
+    };
+    let mut sim = Sim::with(60.0, (EmbodyCorePlugin, plugin));
+    (scene.build)(&mut sim, side, options.count);
     if options.threads == 1 {
         run_alone(&mut sim.app);
     }
@@ -152,7 +154,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         measured.wall.push(spent.wall.as_nanos() as u64);
         measured.busy.push(spent.busy.as_nanos() as u64);
         measured.allocations.push(spent.allocations);
-        way.follow(sim.app.world_mut(), tick);
+        way.follow(sim.app.world_mut(), subject, tick);
     }
     measured.hash = hash(sim.app.world_mut());
     measured.progress = way.went / way.wished.max(f64::MIN_POSITIVE);
@@ -177,13 +179,10 @@ fn run_alone(app: &mut App) {
     }
 }
 
-/// Nobody gets above this without being thrown, metres.
-const HIGHEST: f32 = 6.0;
-
-/// How far walkers got.
+/// How far everyone got.
 #[derive(Default)]
 struct Way {
-    last: BTreeMap<StableId, Vec3>,
+    last: BTreeMap<StableId, (Vec3, bool)>,
     went: f64,
     wished: f64,
     fastest: f32,
@@ -191,20 +190,19 @@ struct Way {
 }
 
 impl Way {
-    fn follow(&mut self, world: &mut World, tick: usize) {
-        let mut walkers = world.query::<(&StableId, &Walker, &Transform)>();
-        for (id, walker, transform) in walkers.iter(world) {
-            let at = transform.translation;
-            let Some(last) = self.last.insert(*id, at) else {
+    fn follow(&mut self, world: &mut World, subject: &Subject, tick: usize) {
+        for seen in (subject.watch)(world) {
+            let at = seen.at;
+            let well = seen.upright && subject.level.contains(&at.y);
+            let Some((last, was_well)) = self.last.insert(seen.id, (at, well)) else {
                 continue;
             };
             self.went += f64::from((at - last).with_y(0.0).length());
-            self.wished += f64::from(walker.wish.length() / 60.0);
+            self.wished += f64::from(seen.wished / 60.0);
             self.fastest = self.fastest.max((at - last).length() * 60.0);
-            let inside = |p: Vec3| (LOWEST - 0.1..HIGHEST).contains(&p.y);
-            if !inside(at) && inside(last) {
+            if !well && was_well {
                 self.lost.push(Lost {
-                    id: id.0,
+                    id: seen.id.0,
                     tick,
                     last: last.to_array(),
                     at: at.to_array(),

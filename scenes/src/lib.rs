@@ -3,9 +3,12 @@
 pub mod builders;
 pub mod course;
 pub mod harness;
+pub mod reference;
 #[cfg(feature = "window")]
 pub mod shell;
 pub mod stations;
+pub mod terrain;
+pub mod traffic;
 pub mod wavy;
 
 pub use builders::{FloorKind, Make, Mover, Patch, StairCeiling, Stairs};

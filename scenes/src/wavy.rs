@@ -6,11 +6,10 @@
 //! arrival or after two seconds; nobody ever stands still by choice. Points and speeds come from a
 //! hash of the walker's number and the leg, the same on every platform.
 
-use bevy::{
-    math::{UVec2, ops},
-    prelude::*,
-};
+use bevy::{math::UVec2, prelude::*};
 use bevy_rapier3d::prelude::*;
+
+use crate::terrain::{StableId, Waves, tiles_for, unit};
 
 /// Characters on one tile.
 pub const PER_TILE: u32 = 100;
@@ -24,13 +23,14 @@ pub const LOWEST: f32 = -AMPLITUDE;
 const SLOWEST: f32 = 5.0;
 /// Longest time on the way to one point, ticks of 1/60 s.
 const LEG: u32 = 120;
-/// Edge of a quad of the terrain, metres.
-const QUAD: f32 = 0.5;
-const QUADS: u32 = 100;
 const AMPLITUDE: f32 = 2.0;
-/// Waves along the edge of a tile: a whole number, so that tiles are alike. The terrain is 37
-/// degrees steep at most.
-const WAVES: f32 = 3.0;
+/// The terrain, 37 degrees steep at most.
+const TERRAIN: Waves = Waves {
+    tile: TILE,
+    quads: 100,
+    amplitude: AMPLITUDE,
+    waves: 3.0,
+};
 /// Rows and columns of characters, and of crates, on a tile.
 const ROWS: u32 = 10;
 /// Distance of rows and columns, metres.
@@ -42,10 +42,6 @@ const STAIRS: f32 = -1.0;
 const PILLARS: u32 = 10;
 const CRATE: f32 = 0.5;
 
-/// A number for an entity that does not depend on how or when it was spawned.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct StableId(pub u32);
-
 /// The world of a crowd.
 #[derive(Clone, Copy, Debug)]
 pub struct Wavy {
@@ -56,14 +52,8 @@ impl Wavy {
     /// A world with room for this many characters: the least number of tiles, as nearly square as
     /// they can be laid out.
     pub fn for_characters(characters: u32) -> Self {
-        let count = characters.div_ceil(PER_TILE).max(1);
-        let rows = (1..=count)
-            .take_while(|rows| rows * rows <= count)
-            .filter(|rows| count.is_multiple_of(*rows))
-            .last()
-            .unwrap_or(1);
         Self {
-            tiles: UVec2::new(count / rows, rows),
+            tiles: tiles_for(characters, PER_TILE),
         }
     }
 
@@ -74,22 +64,12 @@ impl Wavy {
 
     /// Height of the terrain, metres.
     pub fn height(x: f32, z: f32) -> f32 {
-        let k = core::f32::consts::TAU * WAVES / TILE;
-        AMPLITUDE * ops::sin(k * x) * ops::cos(k * z)
-    }
-
-    /// Angle of the terrain to level, radians.
-    pub fn slope(x: f32, z: f32) -> f32 {
-        let d = 0.5 * QUAD;
-        let dx = Self::height(x + d, z) - Self::height(x - d, z);
-        let dz = Self::height(x, z + d) - Self::height(x, z - d);
-        ops::atan2(Vec2::new(dx, dz).length(), 2.0 * d)
+        TERRAIN.height(x, z)
     }
 
     /// Middle of a tile, metres.
     fn middle(&self, tile: u32) -> Vec2 {
-        let at = UVec2::new(tile % self.tiles.x, tile / self.tiles.x);
-        (at.as_vec2() - (self.tiles.as_vec2() - 1.0) * 0.5) * TILE
+        TERRAIN.middle(self.tiles, tile)
     }
 
     /// Top of everything that does not move, metres, at a place relative to the middle of a tile.
@@ -104,9 +84,7 @@ impl Wavy {
 
     /// Spawns what does not move: terrain, stairs, pillars.
     pub fn spawn_ground(&self, world: &mut World) {
-        if let Some(terrain) = self.terrain() {
-            world.spawn((RigidBody::Fixed, terrain, Transform::default()));
-        }
+        TERRAIN.spawn(world, self.tiles);
         for tile in 0..self.tiles() {
             let middle = self.middle(tile);
             for i in 0..STEPS {
@@ -131,25 +109,6 @@ impl Wavy {
                 );
             }
         }
-    }
-
-    /// The whole terrain as one mesh.
-    fn terrain(&self) -> Option<Collider> {
-        let quads = self.tiles * QUADS;
-        let low = -0.5 * TILE * self.tiles.as_vec2();
-        let vertices = (0..=quads.y)
-            .flat_map(|j| (0..=quads.x).map(move |i| (i, j)))
-            .map(|(i, j)| {
-                let (x, z) = (low.x + QUAD * i as f32, low.y + QUAD * j as f32);
-                Vec3::new(x, Self::height(x, z), z)
-            })
-            .collect();
-        let row = quads.x + 1;
-        let indices = (0..quads.y)
-            .flat_map(|j| (0..quads.x).map(move |i| j * row + i))
-            .flat_map(|a| [[a, a + row, a + row + 1], [a, a + row + 1, a + 1]])
-            .collect();
-        Collider::trimesh(vertices, indices).ok()
     }
 
     /// Spawns 100 crates of 1 kg on each tile; their numbers begin with `first`.
@@ -196,7 +155,7 @@ impl Wavy {
             .find(|at| {
                 let there = middle + at;
                 at.abs().max_element() > half_width(0) + 0.5
-                    && Self::slope(there.x, there.y) <= steepest
+                    && TERRAIN.slope(there.x, there.y) <= steepest
             })
             .unwrap_or(cell);
         let y = self.top(middle, found) + 0.05;
@@ -265,31 +224,9 @@ fn block(world: &mut World, low: Vec3, high: Vec3) {
     ));
 }
 
-/// A number from 0 to 1 that looks random.
-fn unit(i: u32, leg: u32, what: u32) -> f32 {
-    // The finaliser of a common 64-bit mixing function.
-    let mut h = u64::from(i) << 40 | u64::from(leg) << 8 | u64::from(what);
-    h = (h ^ (h >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    h = (h ^ (h >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    h ^= h >> 31;
-    (h >> 40) as f32 / (1u32 << 24) as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tiles_are_laid_out_as_nearly_square_as_they_can_be() {
-        for (characters, tiles) in [
-            (1, (1, 1)),
-            (100, (1, 1)),
-            (1000, (5, 2)),
-            (10_000, (10, 10)),
-        ] {
-            assert_eq!(Wavy::for_characters(characters).tiles, UVec2::from(tiles));
-        }
-    }
 
     #[test]
     fn every_walker_starts_and_walks_inside_its_own_tile() {
@@ -313,15 +250,8 @@ mod tests {
             let p = wavy.resting_place(i, 0.6);
             let at = Vec2::new(p.x, p.z) - wavy.middle(i / PER_TILE);
             let on_stairs = at.abs().max_element() <= half_width(0);
-            assert!(on_stairs || Wavy::slope(p.x, p.z) <= 0.6, "{i}");
+            assert!(on_stairs || TERRAIN.slope(p.x, p.z) <= 0.6, "{i}");
         }
-    }
-
-    #[test]
-    fn the_terrain_of_a_tile_has_20_000_triangles() {
-        let terrain = Wavy::for_characters(100).terrain();
-        let count = terrain.and_then(|c| c.as_trimesh().map(|mesh| mesh.indices().len()));
-        assert_eq!(count, Some(20_000));
     }
 
     #[test]

@@ -1,21 +1,28 @@
 //! Feeling for the ground: rays and swept shapes, behind one question.
+//!
+//! What is near the wheels of a vehicle is gathered once per tick ([`Ground::gather`]): one traversal
+//! of the search tree for all of them, and one of each mesh. Every probe of the tick then asks these
+//! few pieces ([`Ground::probe`]) and never the physics world again.
 
 use bevy::prelude::*;
 use bevy_rapier3d::{
     plugin::context::RapierContextColliders,
     prelude::{CollisionGroups, RapierRigidBodyHandle},
     rapier::{
-        geometry::Ray,
+        geometry::{Aabb, InteractionGroups},
         math::Pose,
         parry::{
-            query::{DefaultQueryDispatcher, ShapeCastOptions},
-            shape::{Ball, Cylinder, Shape},
+            query::{ShapeCastOptions, cast_shapes},
+            shape::{Ball, Capsule, Cuboid as ParryCuboid, Cylinder, HalfSpace, Shape, Triangle},
         },
-        pipeline::QueryFilter,
     },
 };
 
-use super::world::PhysicsView;
+use super::{
+    neighbourhood::{Area, Geometry, break_down},
+    world::PhysicsView,
+};
+use crate::math::wheel::WheelCast;
 
 /// What is moved along the probe's way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +44,28 @@ pub(crate) struct Probe {
     pub shape: ProbeShape,
 }
 
+impl Probe {
+    /// The box that it sweeps: lower and upper corner, relative to `origin`.
+    pub fn swept(&self, origin: Vec3) -> (Vec3, Vec3) {
+        let start = self.origin - origin;
+        let end = start + self.direction * self.reach;
+        let around = match self.shape {
+            ProbeShape::Ray => Vec3::ZERO,
+            ProbeShape::Ball(radius) => Vec3::splat(radius),
+            ProbeShape::Wheel(radius, half) => {
+                let axle = self.rotation * Vec3::X;
+                let in_plane = (Vec3::ONE - axle * axle).max(Vec3::ZERO);
+                let disc = Vec3::new(in_plane.x.sqrt(), in_plane.y.sqrt(), in_plane.z.sqrt());
+                disc * radius + axle.abs() * half
+            }
+        } + MARGIN;
+        (start.min(end) - around, start.max(end) + around)
+    }
+}
+
+/// Rays hit a little beside edges, so boxes are a little larger, metres.
+const MARGIN: Vec3 = Vec3::splat(1.0e-3);
+
 /// What a probe met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ProbeHit {
@@ -57,82 +86,245 @@ pub(crate) enum Seen {
     Inside,
 }
 
-impl PhysicsView<'_> {
-    /// The nearest solid collider on the probe's way that is not of the body `own`.
-    pub fn probe(
-        &self,
-        probe: &Probe,
+/// What lies near the wheels of one vehicle.
+pub(crate) struct Ground {
+    origin: Vec3,
+    pieces: Vec<GroundPiece>,
+}
+
+struct GroundPiece {
+    geometry: Geometry,
+    entity: Entity,
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Default for Ground {
+    fn default() -> Self {
+        Self {
+            origin: Vec3::ZERO,
+            // More than is usually near.
+            pieces: Vec::with_capacity(256),
+        }
+    }
+}
+
+impl Ground {
+    /// Collects every solid piece in these boxes, relative to `origin`, that is not of the body `own`.
+    pub fn gather(
+        &mut self,
+        view: &PhysicsView,
+        origin: Vec3,
+        boxes: &[(Vec3, Vec3)],
         own: &RapierRigidBodyHandle,
         groups: Option<CollisionGroups>,
-    ) -> Option<Seen> {
+    ) {
+        self.origin = origin;
+        self.pieces.clear();
+        if !boxes.iter().all(|(a, b)| a.is_finite() && b.is_finite()) || !origin.is_finite() {
+            return;
+        }
+        let groups: InteractionGroups = groups.unwrap_or_default().into();
+        let area = Area {
+            origin,
+            boxes,
+            grow: 0.0,
+        };
+        let nodes = area.in_world();
+        let pieces = &mut self.pieces;
+        for (collider, own_body) in view.colliders_in(|node| nodes.meet(node), own) {
+            if own_body || collider.is_sensor() || !collider.collision_groups().test(groups) {
+                continue;
+            }
+            let entity = RapierContextColliders::entity_from_collider(collider);
+            let (shape, position) = (collider.shared_shape(), collider.position());
+            break_down(&area, shape, position, &mut |geometry, _| {
+                let (low, high) = geometry.bounds();
+                if area.meets(low, high) {
+                    pieces.push(GroundPiece {
+                        geometry,
+                        entity,
+                        low,
+                        high,
+                    });
+                }
+            });
+        }
+    }
+
+    /// What the probe meets first among the gathered pieces.
+    pub fn probe(&self, probe: &Probe) -> Option<Seen> {
         if !probe.origin.is_finite() || !(probe.reach > 0.0) {
             return None;
         }
-        let mut filter = QueryFilter::default()
-            .exclude_rigid_body(own.0)
-            .exclude_sensors();
-        if let Some(groups) = groups {
-            filter = filter.groups(groups.into());
-        }
-        let pipeline = self.simulation.broad_phase.as_query_pipeline(
-            &DefaultQueryDispatcher,
-            &self.bodies.bodies,
-            &self.colliders.colliders,
-            filter,
-        );
-        let cast = |shape: &dyn Shape| {
-            let start = Pose::from_parts(probe.origin, probe.rotation);
-            let options = ShapeCastOptions {
-                max_time_of_impact: probe.reach,
-                // A shape that starts inside something moves on until it is out.
-                stop_at_penetration: false,
-                ..ShapeCastOptions::default()
-            };
-            pipeline
-                .cast_shape(&start, probe.direction, shape, options)
-                .map(|(handle, hit)| (handle, hit.time_of_impact, hit.witness1, hit.normal1))
-        };
-        let (handle, distance, point, normal) = match probe.shape {
-            ProbeShape::Ray => {
-                let ray = Ray::new(probe.origin, probe.direction);
-                let (handle, hit) = pipeline.cast_ray_and_get_normal(&ray, probe.reach, true)?;
-                if hit.time_of_impact <= 0.0 {
-                    return Some(Seen::Inside);
-                }
-                let point = probe.origin + probe.direction * hit.time_of_impact;
-                (handle, hit.time_of_impact, point, hit.normal)
+        let (low, high) = probe.swept(self.origin);
+        let start = probe.origin - self.origin;
+        let wheel = match probe.shape {
+            ProbeShape::Wheel(radius, half) => {
+                let axle = probe.rotation * Vec3::X;
+                WheelCast::new(start, axle, radius, half, probe.direction)
             }
-            ProbeShape::Ball(radius) => cast(&Ball::new(radius))?,
+            _ => None,
+        };
+        let mut first: Option<ProbeHit> = None;
+        for piece in &self.pieces {
+            if piece.low.cmpgt(high).any() || piece.high.cmplt(low).any() {
+                continue;
+            }
+            let reach = first.map_or(probe.reach, |hit| hit.distance);
+            let hit = match (&piece.geometry, probe.shape, &wheel) {
+                (geometry, ProbeShape::Ray, _) => {
+                    if geometry.holds(start) {
+                        return Some(Seen::Inside);
+                    }
+                    geometry
+                        .cast_ray(start, probe.direction, reach)
+                        .map(|(t, normal)| (t, start + probe.direction * t, normal))
+                }
+                (Geometry::Triangle(triangle), _, Some(wheel)) => wheel
+                    .cast(triangle, reach)
+                    .map(|touch| (touch.distance, touch.point, touch.normal)),
+                (geometry, ..) => cast(geometry, probe, start, reach),
+            };
+            let Some((distance, point, normal)) = hit else {
+                continue;
+            };
+            if !normal.is_finite() || !point.is_finite() || !(distance <= reach) {
+                continue;
+            }
+            // The backs of triangles hold as their fronts do.
+            let normal = if normal.dot(probe.direction) > 0.0 {
+                -normal
+            } else {
+                normal
+            };
+            // Of two at one distance the order in the search tree, which depends on the rest of the
+            // world, must not decide.
+            let nearer = first.is_none_or(|old| {
+                distance < old.distance
+                    || (distance == old.distance
+                        && (normal - old.normal)
+                            .to_array()
+                            .into_iter()
+                            .find(|d| *d != 0.0)
+                            .is_some_and(|d| d > 0.0))
+            });
+            if nearer {
+                first = Some(ProbeHit {
+                    distance,
+                    point: self.origin + point,
+                    normal,
+                    entity: piece.entity,
+                });
+            }
+        }
+        first.map(Seen::Ground)
+    }
+}
+
+/// A swept shape against any piece: distance, point, normal.
+fn cast(geometry: &Geometry, probe: &Probe, start: Vec3, reach: f32) -> Option<(f32, Vec3, Vec3)> {
+    let against = |shape: &dyn Shape, position: Vec3, rotation: Quat| {
+        let options = ShapeCastOptions {
+            max_time_of_impact: reach,
+            // A shape that starts inside something moves on until it is out.
+            stop_at_penetration: false,
+            ..ShapeCastOptions::default()
+        };
+        let at = Pose::from_parts(position, rotation);
+        let with = |moved: &dyn Shape, turn: Quat| {
+            let from = Pose::from_parts(start, turn);
+            cast_shapes(
+                &at,
+                Vec3::ZERO,
+                shape,
+                &from,
+                probe.direction,
+                moved,
+                options,
+            )
+        };
+        let hit = match probe.shape {
+            ProbeShape::Ray => return None,
+            ProbeShape::Ball(radius) => with(&Ball::new(radius), probe.rotation),
             ProbeShape::Wheel(radius, half) => {
                 // Parry's cylinders stand along Y.
                 let upright = Quat::from_rotation_z(core::f32::consts::FRAC_PI_2);
-                let start = Pose::from_parts(probe.origin, probe.rotation * upright);
-                let options = ShapeCastOptions {
-                    max_time_of_impact: probe.reach,
-                    stop_at_penetration: false,
-                    ..ShapeCastOptions::default()
-                };
-                let shape = Cylinder::new(half, radius);
-                let (handle, hit) =
-                    pipeline.cast_shape(&start, probe.direction, &shape, options)?;
-                (handle, hit.time_of_impact, hit.witness1, hit.normal1)
+                with(&Cylinder::new(half, radius), probe.rotation * upright)
             }
         };
-        let collider = self.colliders.colliders.get(handle)?;
-        if !normal.is_finite() || !point.is_finite() {
-            return None;
+        let hit = hit.ok()??;
+        // In the axes of the piece.
+        Some((
+            hit.time_of_impact,
+            at * hit.witness1,
+            rotation * hit.normal1,
+        ))
+    };
+    match geometry {
+        Geometry::Triangle(t) => against(&Triangle::new(t.a, t.b, t.c), Vec3::ZERO, Quat::IDENTITY),
+        Geometry::Cuboid(c) => against(&ParryCuboid::new(c.half), c.center, c.rotation),
+        Geometry::Ball { center, radius } => against(&Ball::new(*radius), *center, Quat::IDENTITY),
+        Geometry::Capsule { a, b, radius } => {
+            against(&Capsule::new(*a, *b, *radius), Vec3::ZERO, Quat::IDENTITY)
         }
-        // The backs of triangles hold as their fronts do.
-        let normal = if normal.dot(probe.direction) > 0.0 {
-            -normal
-        } else {
-            normal
-        };
-        Some(Seen::Ground(ProbeHit {
-            distance,
-            point,
-            normal,
-            entity: RapierContextColliders::entity_from_collider(collider),
-        }))
+        Geometry::HalfSpace { point, normal } => {
+            against(&HalfSpace::new(*normal), *point, Quat::IDENTITY)
+        }
+        Geometry::Convex {
+            shape,
+            position,
+            rotation,
+        } => against(&**shape, *position, *rotation),
+    }
+}
+
+impl Geometry {
+    /// Lower and upper corner of the box around it.
+    fn bounds(&self) -> (Vec3, Vec3) {
+        match self {
+            Self::Triangle(t) => (t.a.min(t.b).min(t.c), t.a.max(t.b).max(t.c)),
+            Self::Cuboid(c) => {
+                let turn = Mat3::from_quat(c.rotation);
+                let half = turn.x_axis.abs() * c.half.x
+                    + turn.y_axis.abs() * c.half.y
+                    + turn.z_axis.abs() * c.half.z;
+                (c.center - half, c.center + half)
+            }
+            Self::Ball { center, radius } => (center - *radius, center + *radius),
+            Self::Capsule { a, b, radius } => (a.min(*b) - *radius, a.max(*b) + *radius),
+            Self::HalfSpace { .. } => (Vec3::NEG_INFINITY, Vec3::INFINITY),
+            Self::Convex {
+                shape,
+                position,
+                rotation,
+            } => {
+                let aabb: Aabb = shape.compute_aabb(&Pose::from_parts(*position, *rotation));
+                (aabb.mins, aabb.maxs)
+            }
+        }
+    }
+
+    /// Whether a point is inside a solid; faces have no inside.
+    fn holds(&self, point: Vec3) -> bool {
+        match self {
+            Self::Triangle(_) => false,
+            Self::Cuboid(c) => {
+                let p = c.rotation.inverse() * (point - c.center);
+                p.abs().cmple(c.half).all()
+            }
+            Self::Ball { center, radius } => point.distance_squared(*center) <= radius * radius,
+            Self::Capsule { a, b, radius } => {
+                let (along, arm) = (b - a, point - a);
+                let t = (arm.dot(along) / along.length_squared().max(1.0e-12)).clamp(0.0, 1.0);
+                *radius > 0.0 && arm.distance_squared(along * t) <= radius * radius
+            }
+            Self::HalfSpace { point: at, normal } => (point - *at).dot(*normal) <= 0.0,
+            Self::Convex {
+                shape,
+                position,
+                rotation,
+            } => shape.contains_point(&Pose::from_parts(*position, *rotation), point),
+        }
     }
 }

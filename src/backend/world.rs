@@ -148,6 +148,29 @@ impl<'a> PhysicsView<'a> {
         (end.translation - now.translation + (turned - arm)) / dt
     }
 
+    /// Every collider in the search tree below nodes that are `near`, and whether it is of the body
+    /// `own`.
+    #[cfg(feature = "vehicle")]
+    pub(super) fn colliders_in(
+        &self,
+        near: impl Fn(&BvhNode) -> bool,
+        own: &RapierRigidBodyHandle,
+    ) -> impl Iterator<Item = (&'a Collider, bool)> {
+        let pipeline = self.simulation.broad_phase.as_query_pipeline(
+            &DefaultQueryDispatcher,
+            &self.bodies.bodies,
+            &self.colliders.colliders,
+            QueryFilter::default(),
+        );
+        let own = own.0;
+        pipeline.bvh.leaves(near).filter_map(move |leaf| {
+            let (collider, _) = pipeline.colliders.get_unknown_gen(leaf)?;
+            collider
+                .is_enabled()
+                .then_some((collider, collider.parent() == Some(own)))
+        })
+    }
+
     /// Collects what is near. `judge` is asked about every collider by its entity and its body's.
     pub fn gather(
         &self,

@@ -5,6 +5,8 @@ pub(crate) mod lanes;
 pub(crate) mod planes;
 pub(crate) mod segment;
 pub(crate) mod triangle;
+#[cfg(feature = "vehicle")]
+pub(crate) mod wheel;
 
 use bevy::math::Vec3;
 

@@ -8,12 +8,14 @@
 //!
 //! Memory is kept between ticks; gathering allocates only while a buffer still grows.
 
+mod break_down;
 mod gather;
 mod mover;
 mod piece;
 
 use bevy::{math::DQuat, prelude::*};
 
+pub(crate) use break_down::{Area, MOST_BOXES, break_down};
 pub(crate) use gather::Request;
 pub(crate) use mover::{Mover, MoverPose};
 pub(crate) use piece::{Geometry, Piece};

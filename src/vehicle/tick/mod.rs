@@ -24,7 +24,9 @@ use super::{
     surface::{RoadVelocity, SurfaceFriction},
     wheel::Wheel,
 };
-use crate::backend::{handles::RapierRigidBodyHandle, rigid::Rigid, world::PhysicsView};
+use crate::backend::{
+    handles::RapierRigidBodyHandle, probe::Ground, rigid::Rigid, world::PhysicsView,
+};
 
 pub(super) use sense::Found;
 
@@ -71,6 +73,7 @@ pub(super) struct Surroundings<'a, 'w, 's> {
 #[derive(Default)]
 pub(super) struct Scratch {
     spin: Spin,
+    ground: Ground,
 }
 
 /// For how long a woken vehicle is not left to sleep, seconds: until its steering has turned.
@@ -166,7 +169,16 @@ pub(super) fn run(
     report.refresh_shares(s, &rigid);
 
     let angles = steer::steer(s, config, state, &asked, speed);
-    let found = sense::sense(s, config, state, report, &rigid, &angles, gravity);
+    let found = sense::sense(
+        s,
+        config,
+        state,
+        report,
+        &rigid,
+        &angles,
+        gravity,
+        &mut scratch.ground,
+    );
     sense::remember(s, state, &found);
 
     // What the body would do without wheels.

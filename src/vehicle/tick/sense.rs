@@ -6,18 +6,21 @@ use bevy::{math::ops, prelude::*};
 use super::Surroundings;
 use crate::{
     backend::{
-        probe::{Probe, ProbeHit, ProbeShape, Seen},
+        neighbourhood::MOST_BOXES,
+        probe::{Ground, Probe, ProbeHit, ProbeShape, Seen},
         rigid::Rigid,
     },
     vehicle::{
         config::Vehicle,
         report::VehicleReport,
         solve::MOST_WHEELS,
-        state::{GroundPlane, VehicleState},
+        state::{GroundPlane, VehicleState, WheelDynamics},
         suspension::Law,
         wheel::{Wheel, WheelProbe},
     },
 };
+
+const _: () = assert!(MOST_WHEELS <= MOST_BOXES, "a box for each wheel");
 
 /// A wheel at the start of the tick.
 #[derive(Clone, Copy)]
@@ -48,24 +51,36 @@ pub(super) fn sense(
     rigid: &Rigid,
     angles: &[f32],
     gravity: Vec3,
+    ground: &mut Ground,
 ) -> ArrayVec<Found, MOST_WHEELS> {
     let least_cosine = ops::cos(config.max_ground_angle);
+    let places: ArrayVec<Place, MOST_WHEELS> = s
+        .wheels
+        .iter()
+        .enumerate()
+        .map(|(i, wheel)| place(s, wheel, rigid, angles[i], &state.wheels[i], state))
+        .collect();
+    let boxes: ArrayVec<(Vec3, Vec3), MOST_WHEELS> = places
+        .iter()
+        .zip(&s.wheels)
+        .filter(|(place, _)| place.known.is_none())
+        .map(|(place, wheel)| place.area(wheel, rigid.center))
+        .collect();
+    if !boxes.is_empty() {
+        ground.gather(&s.view, rigid.center, &boxes, s.handle, s.groups);
+    }
     s.wheels
         .iter()
         .enumerate()
         .map(|(i, wheel)| {
-            let frame = frame(wheel, rigid, angles[i]);
             let law = Law::new(&wheel.suspension, report.shares[i]);
-            let top = rigid.position + rigid.rotation * wheel.attachment;
             let travel = wheel.suspension.travel;
             let last = &state.wheels[i];
-            let known = (state.probe_age + 1 < s.probe_every)
-                .then_some(last.plane)
-                .flatten()
-                .and_then(|plane| extend(s, &plane));
-            let touch = match known {
-                Some(hit) => rest_on_plane(wheel, &frame, top, &hit, least_cosine),
-                None => look(s, wheel, rigid, &frame, top, least_cosine, last.ground),
+            let place = &places[i];
+            let frame = &place.frame;
+            let touch = match place.known {
+                Some(hit) => rest_on_plane(wheel, frame, place.top, &hit, least_cosine),
+                None => look(ground, wheel, place, least_cosine, last.ground),
             };
             let mut found = Found {
                 axle: frame.axle,
@@ -144,6 +159,93 @@ struct Frame {
     rotation: Quat,
 }
 
+/// Where a wheel's way begins, before anything of the ground is known.
+struct Place {
+    frame: Frame,
+    /// Hub at full bump, world, metres.
+    top: Vec3,
+    /// How far above that probes begin, so that a hard landing still finds the ground, metres.
+    raise: f32,
+    /// How far below full droop they end, metres: as far as the wheel gets within the tick.
+    ahead: f32,
+    /// The plane that the wheel stands on, in ticks that do not look.
+    known: Option<ProbeHit>,
+}
+
+fn place(
+    s: &Surroundings,
+    wheel: &Wheel,
+    rigid: &Rigid,
+    angle: f32,
+    last: &WheelDynamics,
+    state: &VehicleState,
+) -> Place {
+    let frame = frame(wheel, rigid, angle);
+    let top = rigid.position + rigid.rotation * wheel.attachment;
+    let closing = (rigid.velocity + rigid.spin.cross(top - rigid.center)).dot(frame.down);
+    let known = (state.probe_age + 1 < s.probe_every)
+        .then_some(last.plane)
+        .flatten()
+        .and_then(|plane| extend(s, &plane));
+    Place {
+        top,
+        raise: wheel.suspension.travel + wheel.radius,
+        ahead: 1.5 * closing.max(0.0) * s.dt,
+        known,
+        frame,
+    }
+}
+
+impl Place {
+    /// A ray down beside the wheel's middle.
+    fn ray(&self, wheel: &Wheel, offset: Vec3, raise: f32) -> Probe {
+        Probe {
+            origin: self.top + offset - self.frame.down * raise,
+            rotation: Quat::IDENTITY,
+            direction: self.frame.down,
+            reach: raise + wheel.suspension.travel + wheel.radius + self.ahead,
+            shape: ProbeShape::Ray,
+        }
+    }
+
+    /// A shape of the wheel's kind, `lower` than its hub.
+    fn cast(&self, wheel: &Wheel, shape: ProbeShape, lower: f32, raise: f32) -> Probe {
+        Probe {
+            origin: self.top + self.frame.down * (lower - raise),
+            rotation: self.frame.rotation,
+            direction: self.frame.down,
+            reach: raise + wheel.suspension.travel + self.ahead,
+            shape,
+        }
+    }
+
+    /// What the wheel feels with: the shape, and how much lower than its hub.
+    fn shape(wheel: &Wheel) -> Option<(ProbeShape, f32)> {
+        match wheel.probe {
+            WheelProbe::Ray | WheelProbe::Rays { .. } => None,
+            WheelProbe::Sphere { radius } => {
+                let radius = radius.min(wheel.radius);
+                Some((ProbeShape::Ball(radius), wheel.radius - radius))
+            }
+            WheelProbe::Cylinder => Some((ProbeShape::Wheel(wheel.radius, wheel.width * 0.5), 0.0)),
+        }
+    }
+
+    /// The box that all its probes stay in, relative to `origin`.
+    fn area(&self, wheel: &Wheel, origin: Vec3) -> (Vec3, Vec3) {
+        let (mut low, mut high) = self.ray(wheel, Vec3::ZERO, self.raise).swept(origin);
+        if let WheelProbe::Rays { .. } = wheel.probe {
+            let aside = (self.frame.axle * (0.5 * wheel.width)).abs();
+            (low, high) = (low - aside, high + aside);
+        }
+        if let Some((shape, lower)) = Self::shape(wheel) {
+            let (a, b) = self.cast(wheel, shape, lower, self.raise).swept(origin);
+            (low, high) = (low.min(a), high.max(b));
+        }
+        (low, high)
+    }
+}
+
 fn frame(wheel: &Wheel, rigid: &Rigid, angle: f32) -> Frame {
     let down = wheel.direction.normalize_or(Vec3::NEG_Y);
     let lean = if wheel.attachment.x < 0.0 {
@@ -162,34 +264,18 @@ fn frame(wheel: &Wheel, rigid: &Rigid, angle: f32) -> Frame {
 
 /// The ground of a wheel, and how far down it holds the hub from full bump, metres.
 fn look(
-    s: &Surroundings,
+    ground: &Ground,
     wheel: &Wheel,
-    rigid: &Rigid,
-    frame: &Frame,
-    top: Vec3,
+    place: &Place,
     least_cosine: f32,
     stood_on: Option<Entity>,
 ) -> Option<(Touch, f32)> {
-    let travel = wheel.suspension.travel;
-    // From above the hub, so that a hard landing still finds the ground.
-    let raise = travel + wheel.radius;
-    let arm = top - rigid.center;
-    let closing = (rigid.velocity + rigid.spin.cross(arm)).dot(frame.down);
-    let ahead = 1.5 * closing.max(0.0) * s.dt;
+    let (frame, top) = (&place.frame, place.top);
     let ray = |offset: Vec3| {
-        let from = |raise: f32| {
-            let probe = Probe {
-                origin: top + offset - frame.down * raise,
-                rotation: Quat::IDENTITY,
-                direction: frame.down,
-                reach: raise + travel + wheel.radius + ahead,
-                shape: ProbeShape::Ray,
-            };
-            s.view.probe(&probe, s.handle, s.groups)
-        };
+        let from = |raise: f32| ground.probe(&place.ray(wheel, offset, raise));
         // Above the wheel may be the inside of something: a low bridge, a ledge.
-        let hit = match from(raise)? {
-            Seen::Ground(hit) if hit.distance < raise && stood_on != Some(hit.entity) => {
+        let hit = match from(place.raise)? {
+            Seen::Ground(hit) if hit.distance < place.raise && stood_on != Some(hit.entity) => {
                 // Ground that the hub sank into, or something above the wheel that is none: cargo.
                 match from(0.0) {
                     Some(Seen::Ground(below)) => below,
@@ -205,23 +291,14 @@ fn look(
         rest_on_plane(wheel, frame, top + offset, &hit, least_cosine)
     };
     let cast = |shape: ProbeShape, lower: f32| {
-        let from = |raise: f32| {
-            let probe = Probe {
-                origin: top + frame.down * (lower - raise),
-                rotation: frame.rotation,
-                direction: frame.down,
-                reach: raise + travel + ahead,
-                shape,
-            };
-            match s.view.probe(&probe, s.handle, s.groups)? {
-                Seen::Ground(mut hit) => {
-                    hit.distance -= raise;
-                    Some(hit)
-                }
-                Seen::Inside => None,
+        let from = |raise: f32| match ground.probe(&place.cast(wheel, shape, lower, raise))? {
+            Seen::Ground(mut hit) => {
+                hit.distance -= raise;
+                Some(hit)
             }
+            Seen::Inside => None,
         };
-        let mut hit = from(raise)?;
+        let mut hit = from(place.raise)?;
         // As with a ray: its upper half is above the hub.
         if hit.distance < -wheel.radius && stood_on != Some(hit.entity) {
             hit = from(0.0).unwrap_or(hit);
@@ -267,11 +344,8 @@ fn look(
             Some((touch, length / hits))
         }
         // A wall in a swept shape's way hides the ground; the middle ray does not mind it.
-        WheelProbe::Sphere { radius } => {
-            let radius = radius.min(wheel.radius);
-            cast(ProbeShape::Ball(radius), wheel.radius - radius).or_else(|| ray(Vec3::ZERO))
-        }
-        WheelProbe::Cylinder => cast(ProbeShape::Wheel(wheel.radius, wheel.width * 0.5), 0.0)
+        WheelProbe::Sphere { .. } | WheelProbe::Cylinder => Place::shape(wheel)
+            .and_then(|(shape, lower)| cast(shape, lower))
             .or_else(|| ray(Vec3::ZERO)),
     }
 }
