@@ -2,6 +2,7 @@
 
 pub mod builders;
 pub mod course;
+pub mod driving;
 pub mod harness;
 #[cfg(feature = "window")]
 pub mod shell;
