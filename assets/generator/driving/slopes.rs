@@ -135,7 +135,7 @@ fn build_loop(level: &mut Level) {
         level,
         "loop.out",
         &out,
-        [looping::RUN_UP, looping::RUN_UP + 90.0],
+        [looping::RUN_UP, looping::RUN_UP + 80.0],
         LANE,
     );
     let w = looping::HALF_WIDTH;
@@ -161,7 +161,7 @@ fn build_loop(level: &mut Level) {
     // What holds it up.
     let mut legs = Mesh::default();
     let line = looping::line();
-    for i in [36, 54, 90, 108] {
+    for i in [54, 81, 135, 162] {
         let (at, up) = line[i];
         let under = at - up * 0.3;
         for x in [-w - 0.25, w + 0.25] {

@@ -161,7 +161,7 @@ impl Driver {
         step: &DriveStep,
         now: &DriveSample,
         vehicle: &Vehicle,
-        (wheelbase, radius): (f32, f32),
+        wheelbase: f32,
         yaw: f32,
         dt: f32,
     ) -> VehicleIntent {
@@ -174,7 +174,7 @@ impl Driver {
             DriveStep::Follow { line, speed, .. } => {
                 let v = now.telemetry.speed;
                 let steer = self.steer(line, now, vehicle, wheelbase, yaw);
-                self.pedals(*speed, v, now, radius, dt, steer)
+                self.pedals(*speed, v, dt, steer)
             }
         }
     }
@@ -220,8 +220,6 @@ impl Driver {
         &mut self,
         speed: f32,
         v: f32,
-        now: &DriveSample,
-        radius: f32,
         dt: f32,
         steer: f32,
     ) -> VehicleIntent {
@@ -232,16 +230,8 @@ impl Driver {
         } else {
             1.0
         };
-        // Feels the wheels spin, as a driver does.
-        let slip = now
-            .wheels
-            .iter()
-            .filter(|wheel| wheel.drive_torque > 0.0)
-            .map(|wheel| wheel.spin * radius - v)
-            .fold(0.0, f32::max);
-        let ease = (1.0 - (slip - 0.3 - 0.1 * v.abs()).max(0.0)).max(0.15);
         VehicleIntent {
-            throttle: throttle * ease,
+            throttle,
             brake: (-0.15 * (error + 1.0)).clamp(0.0, 1.0),
             steer,
             ..default()

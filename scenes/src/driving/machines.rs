@@ -125,10 +125,26 @@ fn drift(ticks: &[DriveSample]) -> f32 {
     range(ticks, |s| spot(s).distance(first)).1
 }
 
-fn ask_carried(plan: Plan, weight: f32, moving: fn(&DriveTrace) -> &[DriveSample]) -> Plan {
-    plan.ask("carried: no drift over 2 mm on it", |trace| {
-        let way = drift(after(trace.step(0), 1.0));
+fn ask_carried(
+    plan: Plan,
+    weight: f32,
+    speed: f32,
+    moving: fn(&DriveTrace) -> &[DriveSample],
+) -> Plan {
+    plan.ask("carried: at the end within 2 mm of its spot", |trace| {
+        let ticks = after(trace.step(0), 1.0);
+        let ends: Vec<DriveSample> = ticks.first().into_iter().chain(ticks.last()).cloned().collect();
+        let way = drift(&ends);
         Verdict::at_most(way.into(), 2e-3, format!("{:.3} mm", 1e3 * way))
+    })
+    .ask("on the way never further from it than a tick's way", move |trace| {
+        let way = drift(after(trace.step(0), 1.0));
+        let tick = f64::from(speed) * trace.dt;
+        Verdict::at_most(
+            way.into(),
+            tick,
+            format!("{:.1} mm, a tick is {:.1} mm", 1e3 * way, 1e3 * tick),
+        )
     })
     .ask("at constant speed the wheels carry its weight within 0.5 %", move |trace| {
         let got = mean(moving(trace), |s| s.telemetry.load / weight);
@@ -152,7 +168,7 @@ fn deck() -> DriveStation {
                 DriveStep::brake(arrival + 0.3),
                 DriveStep::ahead(ferry::TRAVEL, end, speed, 40.0),
             ]);
-            let plan = ask_carried(plan, figures.weight(), |trace| {
+            let plan = ask_carried(plan, figures.weight(), ferry::SPEED, |trace| {
                 // Half a second after it got to its speed, until it slows down.
                 let ticks = after(trace.step(0), f64::from(ferry::WAIT + ferry::RAMP) + 0.5);
                 let at_speed = ferry::TRAVEL / ferry::SPEED - ferry::RAMP - 0.5;
@@ -188,7 +204,7 @@ fn lift() -> DriveStation {
                 DriveStep::brake(arrival + 0.5),
                 DriveStep::follow(&line, speed, 40.0),
             ]);
-            let plan = ask_carried(plan, figures.weight(), |trace| {
+            let plan = ask_carried(plan, figures.weight(), car_lift::SPEED, |trace| {
                 // The swing of the start has died away in the last second before it slows down.
                 let ticks = trace.step(0);
                 let rest = f64::from(car_lift::RAMP) + 0.6;

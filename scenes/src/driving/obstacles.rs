@@ -1,9 +1,9 @@
 //! Kerbs, washboard, rubble.
 
-use bevy::prelude::*;
+use bevy::{math::ops, prelude::*};
 
 use super::{
-    DriveStation, DriveStep, Figures, Plan,
+    DriveStation, DriveStep, Figures, GRAVITY, Plan,
     trace::{DriveTrace, mean, range},
 };
 use crate::{
@@ -45,7 +45,20 @@ fn kerb(kerb: Kerb) -> DriveStation {
             if let Some(why) = too_low(figures, kerb.height) {
                 return Err(why);
             }
-            let speed = (0.8 * figures.top_speed()).min(4.0);
+            // The angle at which the tread meets the edge, and how fast that throws a rigid wheel up.
+            let radius = figures.radius();
+            let cos = ((radius - kerb.height) / radius).max(0.1);
+            let sin = ops::sqrt(1.0 - cos * cos);
+            let travel = figures.preset.wheels[0].suspension.travel;
+            if travel < 0.5 * kerb.height {
+                return Err(format!(
+                    "its springs give {:.0} cm, its wheels meet the edge at {:.0} degrees",
+                    100.0 * travel,
+                    ops::acos(cos).to_degrees()
+                ));
+            }
+            let gentle = ops::sqrt(2.0 * GRAVITY * kerb.height) / (sin * cos);
+            let speed = (0.8 * figures.top_speed()).min(4.0).min(0.9 * gentle);
             let end = KERB[0] + KERB[1] + 8.0;
             let most = 2.0 * kerb.height + 0.05;
             Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 30.0)])
@@ -97,7 +110,7 @@ fn stones() -> DriveStation {
         format!("through {} loose stones", rubble::STONES),
         rubble::PLACE,
         |figures| {
-            let speed = (0.8 * figures.top_speed()).min(4.0);
+            let speed = if figures.leans() { 2.0 } else { 3.0 };
             let end = rubble::FIELD[0] + rubble::FIELD[1] + 9.0;
             let most = rubble::LARGEST + 0.05;
             Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 40.0)])

@@ -85,7 +85,12 @@ fn play(
     }
     let plugins = EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>();
     let mut sim = Sim::with(hz, (plugins, CoursePlugin));
-    sim.app.insert_resource(level.clone());
+    // Only what the station is made of: a level is dear to build, and each world builds its own.
+    let family = station.name.replace("side_", "hill_");
+    let mut part = level.clone();
+    part.nodes
+        .retain(|node| node.name == "meadow" || node.name.starts_with(&family));
+    sim.app.insert_resource(part);
     let spawned =
         sim.app
             .world_mut()

@@ -1,6 +1,7 @@
 //! Oval, skid pad, drag strip, ice.
 
 use bevy::{math::ops, prelude::*};
+use bevy_embody::vehicle::Differential;
 
 use super::{
     DriveSample, DriveStation, DriveStep, Figures, GRAVITY, Plan,
@@ -111,11 +112,24 @@ fn pad() -> DriveStation {
             let lean = if figures.leans() { 0.8 } else { f32::INFINITY };
             // Half of the tyres' grip goes into turning tracks against their own length.
             let scrub = if figures.tracked() { 0.35 * tires } else { f32::INFINITY };
+            // Turning shifts load to the outer wheels, and tyres under load hold less of it.
+            let tires = tires * {
+                let tire = &figures.preset.wheels[0].tire;
+                let mean = figures.weight() / figures.preset.wheels.len() as f32;
+                let shift = if figures.leans() { 0.0 } else { tires / figures.tipping() };
+                let loaded = mean / tire.nominal_load;
+                let plain = 1.0 - tire.load_sensitivity * (loaded - 1.0);
+                (plain - tire.load_sensitivity * loaded * shift * shift) / plain
+            };
             let limit = tires.min(0.75 * figures.tipping()).min(lean).min(scrub);
             let top = 0.9 * figures.top_speed();
-            let steady = ops::sqrt(0.75 * limit * GRAVITY * radius).min(top);
+            let steady = ops::sqrt(0.7 * limit * GRAVITY * radius).min(top);
             let most = ops::sqrt(1.2 * tires * GRAVITY * radius);
-            let slides = limit == tires && most < top && !figures.leans();
+            // A rigid axle scrubs in every turn, so it never has all of its grip to the side.
+            let rigid = figures.preset.vehicle.drivetrain.as_ref().is_some_and(|d| {
+                d.axles.iter().any(|axle| axle.differential == Differential::Locked)
+            });
+            let slides = limit == tires && most < top && !figures.leans() && !rigid;
             let mut steps = vec![DriveStep::follow(
                 &circle(radius, 1.4),
                 steady,
@@ -255,8 +269,14 @@ fn slippery() -> DriveStation {
                     None => Verdict::never("stopped"),
                 }
             };
-            Ok(Plan::of(steps)
-                .ask(format!("locked on wet ground slows by {wet:.2} m/s² within 10 %"), judge(1, wet))
+            let all = figures.preset.wheels.iter().all(|w| figures.foot_brake(w) > 0.0);
+            let plan = Plan::of(steps)
+                .ask(format!("locked on wet ground slows by {wet:.2} m/s² within 10 %"), judge(1, wet));
+            // With nothing but the rear wheels locked it turns round on the ice.
+            if !all {
+                return Ok(plan);
+            }
+            Ok(plan
                 .ask(format!("locked on ice slows by {icy:.2} m/s² within 10 %"), judge(3, icy))
                 .ask(
                     format!("stops {:.1} times as long on ice within 10 %", wet / icy),

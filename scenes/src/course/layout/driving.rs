@@ -162,15 +162,15 @@ pub mod looping {
     /// Where it starts.
     pub const PLACE: Place = lane(-84.0, 140.0);
     /// Length of the run-up.
-    pub const RUN_UP: f32 = 160.0;
+    pub const RUN_UP: f32 = 190.0;
     /// Radius at its foot and at its top.
-    pub const RADII: [f32; 2] = [16.0, 7.0];
+    pub const RADII: [f32; 2] = [18.0, 10.0];
     /// How far the way out lies beside the way in.
     pub const SHIFT: f32 = 7.0;
     /// Half its width.
-    pub const HALF_WIDTH: f32 = 2.6;
+    pub const HALF_WIDTH: f32 = 2.8;
     /// Number of straight pieces.
-    pub const PIECES: usize = 144;
+    pub const PIECES: usize = 216;
 
     fn curvature(turned: f32) -> f32 {
         let [foot, top] = RADII.map(|radius| 1.0 / radius);
@@ -510,6 +510,6 @@ mod tests {
         let (end, up) = line[looping::PIECES];
         assert!(end.y.abs() < 0.05 && up.distance(Vec3::Y) < 1e-3, "{end}");
         assert!((end.x - looping::SHIFT).abs() < 1e-4);
-        assert!(looping::height() > 3.0 * looping::RADII[1]);
+        assert!(looping::height() > 2.0 * looping::RADII[1]);
     }
 }
