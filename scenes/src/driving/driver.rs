@@ -112,6 +112,8 @@ pub struct Driver {
     held: f32,
     /// Time that it stands, seconds.
     stands: f32,
+    /// Time that a line has been followed, seconds.
+    since: f32,
 }
 
 /// Whether a step goes on.
@@ -174,7 +176,16 @@ impl Driver {
             DriveStep::Follow { line, speed, .. } => {
                 let v = now.telemetry.speed;
                 let steer = self.steer(line, now, vehicle, wheelbase, yaw);
-                self.pedals(*speed, v, dt, steer)
+                self.since += dt;
+                let mut intent = self.pedals(*speed, v, now, dt, steer);
+                // A start uphill, as it is taught: the hand brake holds until the clutch pulls.
+                let uphill = -(now.pose.rotation * Vec3::Z).y;
+                if self.since < 0.8 && uphill > 0.1 {
+                    intent.handbrake = 1.0;
+                    intent.brake = 0.3;
+                    intent.throttle = 1.0;
+                }
+                intent
             }
         }
     }
@@ -220,6 +231,7 @@ impl Driver {
         &mut self,
         speed: f32,
         v: f32,
+        now: &DriveSample,
         dt: f32,
         steer: f32,
     ) -> VehicleIntent {
@@ -230,8 +242,20 @@ impl Driver {
         } else {
             1.0
         };
+        // Feels the wheels spin, as a driver does.
+        let slip = now
+            .wheels
+            .iter()
+            .filter(|wheel| wheel.drive_torque > 0.0)
+            .map(|wheel| wheel.slip_ratio)
+            .fold(0.0, f32::max);
+        let ease = if v > 1.5 {
+            (1.0 - 6.0 * (slip - 0.1).max(0.0)).max(0.15)
+        } else {
+            1.0
+        };
         VehicleIntent {
-            throttle,
+            throttle: throttle * ease,
             brake: (-0.15 * (error + 1.0)).clamp(0.0, 1.0),
             steer,
             ..default()

@@ -8,6 +8,9 @@ use bevy_embody::vehicle::{
 /// Gravity, metres per second squared.
 pub const GRAVITY: f32 = 9.81;
 
+/// How steeply the underside rises towards the ends, as a tangent.
+const RISE: f32 = 0.35;
+
 /// A preset and what follows from it.
 #[derive(Clone, Debug)]
 pub struct Figures {
@@ -94,6 +97,26 @@ impl Figures {
         self.preset.hull_center.y - 0.5 * self.preset.hull.y
     }
 
+    /// Corners of a hull whose underside rises before the first and behind the last axle, metres.
+    pub fn outline(&self) -> Vec<Vec3> {
+        let (size, middle) = (self.preset.hull, self.preset.hull_center);
+        let (low, high) = (middle - 0.5 * size, middle + 0.5 * size);
+        let (first, last) = self.ends(|wheel| wheel.attachment.z);
+        let end = |over: f32| low.y + (RISE * over.max(0.0)).min(0.6 * size.y);
+        let mut corners = Vec::new();
+        for x in [low.x, high.x] {
+            corners.extend([
+                Vec3::new(x, low.y, first.max(low.z)),
+                Vec3::new(x, low.y, last.min(high.z)),
+                Vec3::new(x, end(first - low.z), low.z),
+                Vec3::new(x, end(high.z - last), high.z),
+                Vec3::new(x, high.y, low.z),
+                Vec3::new(x, high.y, high.z),
+            ]);
+        }
+        corners
+    }
+
     /// How much of the clearance remains on a surface that curves up with this radius, when the
     /// springs are pressed together: negative scrapes, metres.
     pub fn clearance_in(&self, radius: f32) -> f32 {
@@ -109,7 +132,7 @@ impl Figures {
         })
         .1;
         let bump = self.ends(|wheel| wheel.suspension.travel).1 - sag;
-        self.clearance() - 0.85 * bump - over * (base + over) / (2.0 * radius)
+        self.clearance() + RISE * over - bump - over * (base + over) / (2.0 * radius)
     }
 
     /// Load of each wheel on a slope (radians, nose up) while it speeds up, newtons. Equal wheels of an

@@ -110,6 +110,10 @@ fn stones() -> DriveStation {
         format!("through {} loose stones", rubble::STONES),
         rubble::PLACE,
         |figures| {
+            // It pushes stones before it, but those under it must not lift it off its wheels.
+            if let Some(why) = too_low(figures, 0.75 * rubble::LARGEST) {
+                return Err(why);
+            }
             let speed = if figures.leans() { 2.0 } else { 3.0 };
             let end = rubble::FIELD[0] + rubble::FIELD[1] + 9.0;
             let most = rubble::LARGEST + 0.05;

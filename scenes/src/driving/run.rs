@@ -4,11 +4,11 @@ use bevy::prelude::*;
 use bevy_embody::{
     Teleported,
     vehicle::{
-        LeanControl, TractionControl, Vehicle, VehicleIntent, VehicleState, VehicleTelemetry, WheelProbe,
+        LeanControl, Vehicle, VehicleIntent, VehicleState, VehicleTelemetry, WheelProbe,
         WheelState, Wheels,
     },
 };
-use bevy_rapier3d::prelude::{ReadMassProperties, Velocity};
+use bevy_rapier3d::prelude::{Collider, ReadMassProperties, Velocity};
 
 use super::{
     DriveStation, Figures, Plan,
@@ -34,20 +34,23 @@ pub struct DriveRun {
     stopped: Option<String>,
 }
 
-/// Spawns a preset as it is driven here: wheels feel the ground with all of their tread and do not
-/// spin under too much throttle, and a motorcycle has the control that keeps it upright.
+/// Spawns a preset as it is driven here: wheels feel the ground with all of their tread, and a
+/// motorcycle has the control that keeps it upright.
 pub fn spawn_vehicle(commands: &mut Commands, figures: &Figures, at: Transform) -> Entity {
     let mut preset = figures.preset.clone();
     for wheel in &mut preset.wheels {
         wheel.probe = WheelProbe::Cylinder;
     }
     let vehicle = preset.spawn(commands, at);
+    // Bumpers that rise towards the ends, as those of vehicles do, instead of the preset's plain box.
+    if let Some(hull) = Collider::convex_hull(&figures.outline()) {
+        commands.entity(vehicle).insert(hull);
+    }
     let mut entity = commands.entity(vehicle);
     entity.insert((
         Name::new(figures.name),
         Velocity::default(),
         ReadMassProperties::default(),
-        TractionControl::default(),
     ));
     if figures.leans() {
         entity.insert(LeanControl::default());
@@ -157,9 +160,6 @@ impl DriveRun {
                     self.driver = Driver::default();
                 }
             }
-        }
-        if std::env::var_os("PLAY_TRACE").is_some() && self.trace.samples.len() % 8 == 0 {
-            println!("{:.2} s step {} at {:.2} v {:.2} up {:.2} grounded {} load {:.0} gear {} rpm {:.0} slip {:?} steer {:.2} yaw {:.2}", sample.time, self.step, sample.pose.translation, sample.telemetry.speed, sample.upright(), sample.telemetry.grounded, sample.telemetry.load, sample.telemetry.gear, sample.telemetry.rpm, sample.wheels.iter().map(|w| ((w.slip_ratio*100.0) as i32, (w.slip_angle*100.0) as i32, (w.compression*1000.0) as i32)).collect::<Vec<_>>(), sample.telemetry.steer_angle, yaw);
         }
         let intent = match self.plan.steps.get(self.step) {
             Some(step) => self.driver.intent(

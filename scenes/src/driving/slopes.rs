@@ -67,9 +67,12 @@ fn along(hill: Hill) -> DriveStation {
         hill.place,
         move |figures| {
             let pull = figures.weight() * ops::sin(slope);
-            let grip = 0.9 * figures.grip(slope, 0.0, |w| w.driven).x;
-            let engine = figures.launch_force();
-            let climbs = grip.min(engine) > 1.12 * pull;
+            // Also with its wheels spinning, as they do when the clutch bites.
+            let spinning = Figures::sliding(&figures.preset.wheels[0].tire.along);
+            let grip = spinning * figures.grip(slope, 0.0, |w| w.driven).x;
+            let engine = 0.9 * figures.launch_force();
+            // At the edges of the slope an axle loses some of its load.
+            let climbs = grip.min(engine) > 1.15 * pull;
             let mut steps = vec![DriveStep::brake(5.0)];
             let held = figures.braking(slope);
             let (from, top) = (hill.middle(), hill.top());
@@ -212,7 +215,9 @@ fn looping_station() -> DriveStation {
         format!("through a loop {:.0} m high", looping::height()),
         looping::PLACE,
         |figures| {
-            // At the top the radius is that of the centre of mass.
+            if figures.leans() {
+                return Err("its lean control keeps it upright, and a loop is upside down".into());
+            }
             let least = looping::least_speed();
             let wanted = 1.06 * least;
             let reach = figures.sprint(looping::RUN_UP).speed;
