@@ -72,7 +72,7 @@ fn pedal<A: InputAction<Output = f32>>(app: &mut App, set: fn(&mut Controls, f32
 }
 
 /// Hands the value of an action on, each frame while it acts and once more, at rest, when it ends.
-fn hand_on<A: InputAction<Output = T>, T: Default + 'static>(
+fn hand_on<A: InputAction<Output = T>, T: ActionOutput + Default + 'static>(
     app: &mut App,
     set: fn(&mut Controls, T),
 ) {
