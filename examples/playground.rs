@@ -91,8 +91,8 @@ fn headless(options: &Options) -> Result<ExitCode, CourseError> {
     results.extend(run_driving(options.filter.as_deref(), options.hz)?);
     print_table(&results);
     // A filter that finds nothing proves nothing.
-    let passed = results.iter().any(StationResult::passed)
-        && !results.iter().any(StationResult::failed);
+    let passed =
+        results.iter().any(StationResult::passed) && !results.iter().any(StationResult::failed);
     Ok(if passed {
         ExitCode::SUCCESS
     } else {

@@ -152,9 +152,7 @@ pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
                         .mesh
                         .parts
                         .iter()
-                        .map(|(paint, part)| {
-                            buffer.primitive(used.range(..paint).count(), part)
-                        })
+                        .map(|(paint, part)| buffer.primitive(used.range(..paint).count(), part))
                         .collect();
                     meshes.push(json!({ "name": node.name, "primitives": primitives }));
                     known.push(&node.mesh);

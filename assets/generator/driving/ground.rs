@@ -46,7 +46,12 @@ fn meadow(level: &mut Level) {
         let at = |x: f32, y: f32, z: f32| Vec3::new(x * half.x, y * half.y, z * half.z);
         mesh.polygon(
             Paint::Stone,
-            &[at(ax, -1.0, az), at(bx, -1.0, bz), at(bx, 1.0, bz), at(ax, 1.0, az)],
+            &[
+                at(ax, -1.0, az),
+                at(bx, -1.0, bz),
+                at(bx, 1.0, bz),
+                at(ax, 1.0, az),
+            ],
         );
     }
     level.add("meadow", &MIDDLE, center, mesh, solid(boxed(size)));
@@ -97,7 +102,11 @@ fn track(level: &mut Level) {
     rail.tube(Paint::Metal, &rings);
     for s in sections.iter().step_by(3) {
         let base = s.point(width + 0.24);
-        rail.cuboid(Paint::Slate, base + Vec3::Y * 0.35, Vec3::new(0.12, 0.9, 0.12));
+        rail.cuboid(
+            Paint::Slate,
+            base + Vec3::Y * 0.35,
+            Vec3::new(0.12, 0.9, 0.12),
+        );
     }
     level.solid_mesh("oval.rail", &MIDDLE, Vec3::ZERO, rail);
 
@@ -118,7 +127,11 @@ fn track(level: &mut Level) {
         for row in 0..2 {
             let x = oval::INNER + 0.5 * i as f32;
             let z = -4.0 - 0.5 * row as f32;
-            let paint = if (i + row) % 2 == 0 { Paint::White } else { Paint::Ink };
+            let paint = if (i + row) % 2 == 0 {
+                Paint::White
+            } else {
+                Paint::Ink
+            };
             marks.patch(paint, Vec2::new(x, z), Vec2::new(x + 0.5, z + 0.5), 0.014);
         }
     }
@@ -165,7 +178,10 @@ fn trees(level: &mut Level) {
     for i in 0..15 {
         let z = min.y + 8.0 + (max.y - min.y - 16.0) * i as f32 / 14.0;
         spots.push(Vec2::new(max.x - 3.0 - 3.0 * spread(i, 11), z));
-        spots.push(Vec2::new(min.x + 3.0 + 3.0 * spread(i, 7), z + 6.0 * spread(i, 5)));
+        spots.push(Vec2::new(
+            min.x + 3.0 + 3.0 * spread(i, 7),
+            z + 6.0 * spread(i, 5),
+        ));
     }
     for i in 0..16 {
         let x = min.x + 10.0 + (max.x - min.x - 20.0) * i as f32 / 15.0;

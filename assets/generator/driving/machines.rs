@@ -27,14 +27,42 @@ fn planks(level: &mut Level) {
     let place = &bridge::PLACE;
     let [ahead, ramp, bank] = bridge::RAMP;
     let (begin, end, high) = (bridge::BEGIN, bridge::END, bridge::HEIGHT);
-    road(level, "bridge", place, [-8.0, end + ahead + ramp + bank + 6.0], LANE);
+    road(
+        level,
+        "bridge",
+        place,
+        [-8.0, end + ahead + ramp + bank + 6.0],
+        LANE,
+    );
     station(level, place, "bridge", "BRIDGE 5 T", Paint::Wood, 6.0);
     let half = 0.5 * bridge::PLANK.x + 0.2;
-    wedge(level, "bridge.up".into(), place, [ahead, ahead + ramp], high, half, Paint::Plaza);
+    wedge(
+        level,
+        "bridge.up".into(),
+        place,
+        [ahead, ahead + ramp],
+        high,
+        half,
+        Paint::Plaza,
+    );
     let far = end + bank;
-    wedge(level, "bridge.down".into(), place, [far + ramp, far], high, half, Paint::Plaza);
+    wedge(
+        level,
+        "bridge.down".into(),
+        place,
+        [far + ramp, far],
+        high,
+        half,
+        Paint::Plaza,
+    );
     let size = Vec3::new(2.0 * half, high, bank);
-    level.standing("bridge.near", place, Vec3::new(0.0, 0.0, -begin + 0.5 * bank), size, Paint::Stone);
+    level.standing(
+        "bridge.near",
+        place,
+        Vec3::new(0.0, 0.0, -begin + 0.5 * bank),
+        size,
+        Paint::Stone,
+    );
 
     let plank = bridge::PLANK;
     let top = high - 0.5 * plank.y;
@@ -56,9 +84,15 @@ fn planks(level: &mut Level) {
         }
         let (on, on_anchor) = if i == 0 {
             // The bank's own middle is its origin.
-            ("bridge.near".to_owned(), Vec3::new(0.0, top - 0.5 * high, -0.5 * bank))
+            (
+                "bridge.near".to_owned(),
+                Vec3::new(0.0, top - 0.5 * high, -0.5 * bank),
+            )
         } else {
-            (format!("bridge.plank.{}", i - 1), Vec3::NEG_Z * (0.5 * pitch))
+            (
+                format!("bridge.plank.{}", i - 1),
+                Vec3::NEG_Z * (0.5 * pitch),
+            )
         };
         level.add(
             format!("bridge.plank.{i}"),
@@ -73,7 +107,10 @@ fn planks(level: &mut Level) {
                     axis: [1.0, 0.0, 0.0],
                     limit: 0.5,
                 }),
-                ..dynamic(boxed(Vec3::new(plank.x, plank.y, plank.z - 0.02)), bridge::MASS)
+                ..dynamic(
+                    boxed(Vec3::new(plank.x, plank.y, plank.z - 0.02)),
+                    bridge::MASS,
+                )
             },
         );
     }
@@ -96,7 +133,12 @@ fn planks(level: &mut Level) {
         },
     );
     let mut water = Mesh::default();
-    water.patch(Paint::Water, Vec2::new(-5.5, -end + 0.1), Vec2::new(5.5, -begin - 0.1), 0.12);
+    water.patch(
+        Paint::Water,
+        Vec2::new(-5.5, -end + 0.1),
+        Vec2::new(5.5, -begin - 0.1),
+        0.12,
+    );
     level.decor("bridge.water", place, Vec3::ZERO, water);
 }
 
@@ -107,11 +149,33 @@ fn board(level: &mut Level) {
     let low = s::low_end();
     let near = -s::HINGE.z - half;
     let far = -s::HINGE.z + half;
-    road(level, "car_seesaw", place, [-8.0, far + s::RAMP + 14.0], LANE);
+    road(
+        level,
+        "car_seesaw",
+        place,
+        [-8.0, far + s::RAMP + 14.0],
+        LANE,
+    );
     station(level, place, "car_seesaw", "SEESAW", Paint::Rose, 6.0);
     let w = 0.5 * s::SIZE.x;
-    wedge(level, "car_seesaw.up".into(), place, [near - s::RAMP, near - 0.05], low, w, Paint::Plaza);
-    wedge(level, "car_seesaw.down".into(), place, [far + s::RAMP, far + 0.05], low, w, Paint::Plaza);
+    wedge(
+        level,
+        "car_seesaw.up".into(),
+        place,
+        [near - s::RAMP, near - 0.05],
+        low,
+        w,
+        Paint::Plaza,
+    );
+    wedge(
+        level,
+        "car_seesaw.down".into(),
+        place,
+        [far + s::RAMP, far + 0.05],
+        low,
+        w,
+        Paint::Plaza,
+    );
     let mut stand = Mesh::default();
     stand.tube(
         Paint::Slate,
@@ -211,12 +275,40 @@ fn deck(level: &mut Level) {
     let near = half.z + f::GAP;
     let far = half.z + f::TRAVEL + f::GAP;
     let size = Vec3::new(f::DECK.x, f::TOP, dock);
-    level.standing("ferry.dock.near", place, Vec3::Z * (near + 0.5 * dock), size, Paint::Stone);
-    level.standing("ferry.dock.far", place, Vec3::NEG_Z * (far + 0.5 * dock), size, Paint::Stone);
+    level.standing(
+        "ferry.dock.near",
+        place,
+        Vec3::Z * (near + 0.5 * dock),
+        size,
+        Paint::Stone,
+    );
+    level.standing(
+        "ferry.dock.far",
+        place,
+        Vec3::NEG_Z * (far + 0.5 * dock),
+        size,
+        Paint::Stone,
+    );
     let back = near + dock;
-    wedge(level, "ferry.up".into(), place, [-back - ramp, -back], f::TOP, half.x, Paint::Plaza);
+    wedge(
+        level,
+        "ferry.up".into(),
+        place,
+        [-back - ramp, -back],
+        f::TOP,
+        half.x,
+        Paint::Plaza,
+    );
     let ahead = far + dock;
-    wedge(level, "ferry.down".into(), place, [ahead + ramp, ahead], f::TOP, half.x, Paint::Plaza);
+    wedge(
+        level,
+        "ferry.down".into(),
+        place,
+        [ahead + ramp, ahead],
+        f::TOP,
+        half.x,
+        Paint::Plaza,
+    );
     let mut water = Mesh::default();
     let (w, wall) = (6.5, 0.3);
     water.patch(Paint::Water, Vec2::new(-w, -far), Vec2::new(w, near), 0.42);
@@ -235,7 +327,10 @@ fn deck(level: &mut Level) {
         for x in [-1.0f32, 1.0] {
             let width = w - half.x;
             level.standing(
-                format!("ferry.wall.{name}.{}", if x < 0.0 { "west" } else { "east" }),
+                format!(
+                    "ferry.wall.{name}.{}",
+                    if x < 0.0 { "west" } else { "east" }
+                ),
                 place,
                 Vec3::new(x * (half.x + 0.5 * width), 0.0, z),
                 Vec3::new(width, 0.6, wall),
@@ -244,7 +339,14 @@ fn deck(level: &mut Level) {
         }
     }
     level.start("ferry", place, Vec3::Y * f::TOP);
-    arch(level, place, "ferry", "FERRY", Paint::Water, -back - ramp - 2.0);
+    arch(
+        level,
+        place,
+        "ferry",
+        "FERRY",
+        Paint::Water,
+        -back - ramp - 2.0,
+    );
 }
 
 fn lift(level: &mut Level) {
@@ -285,7 +387,15 @@ fn lift(level: &mut Level) {
     let gap = 0.04;
     let front = half.z + gap;
     let high = l::TOP + l::TRAVEL;
-    wedge(level, "car_lift.up".into(), place, [-front - 2.5, -front], l::TOP, half.x, Paint::Plaza);
+    wedge(
+        level,
+        "car_lift.up".into(),
+        place,
+        [-front - 2.5, -front],
+        l::TOP,
+        half.x,
+        Paint::Plaza,
+    );
     level.standing(
         "car_lift.deck",
         place,
@@ -294,7 +404,15 @@ fn lift(level: &mut Level) {
         Paint::Stone,
     );
     let edge = front + deck;
-    wedge(level, "car_lift.down".into(), place, [edge + ramp, edge], high, half.x, Paint::Plaza);
+    wedge(
+        level,
+        "car_lift.down".into(),
+        place,
+        [edge + ramp, edge],
+        high,
+        half.x,
+        Paint::Plaza,
+    );
     let mut posts = Mesh::default();
     for x in [-half.x - 0.3, half.x + 0.3] {
         for z in [-half.z + 0.6, half.z - 0.6] {
@@ -307,5 +425,12 @@ fn lift(level: &mut Level) {
     }
     level.decor("car_lift.posts", place, Vec3::ZERO, posts);
     level.start("car_lift", place, Vec3::Y * l::TOP);
-    arch(level, place, "car_lift", "CAR LIFT", Paint::Amber, -front - 4.5);
+    arch(
+        level,
+        place,
+        "car_lift",
+        "CAR LIFT",
+        Paint::Amber,
+        -front - 4.5,
+    );
 }

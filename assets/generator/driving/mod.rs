@@ -129,29 +129,59 @@ fn wedge(
     let foot = |x: f32, distance: f32| Vec3::new(x, 0.0, -distance);
     mesh.quad(
         paint,
-        [at(-half, near), at(half, near), at(half, far), at(-half, far)],
+        [
+            at(-half, near),
+            at(half, near),
+            at(half, far),
+            at(-half, far),
+        ],
     )
     .quad(
         Paint::Stone,
-        [foot(half, near), foot(half, far), at(half, far), at(half, near)],
+        [
+            foot(half, near),
+            foot(half, far),
+            at(half, far),
+            at(half, near),
+        ],
     )
     .quad(
         Paint::Stone,
-        [foot(-half, far), foot(-half, near), at(-half, near), at(-half, far)],
+        [
+            foot(-half, far),
+            foot(-half, near),
+            at(-half, near),
+            at(-half, far),
+        ],
     )
     .quad(
         Paint::Stone,
-        [foot(half, high), foot(-half, high), at(-half, high), at(half, high)],
+        [
+            foot(half, high),
+            foot(-half, high),
+            at(-half, high),
+            at(half, high),
+        ],
     )
     .quad(
         Paint::Stone,
-        [foot(-half, near), foot(-half, far), foot(half, far), foot(half, near)],
+        [
+            foot(-half, near),
+            foot(-half, far),
+            foot(half, far),
+            foot(half, near),
+        ],
     );
     if high < low {
         // Seen from the other side the end face goes round the other way.
         mesh.quad(
             Paint::Stone,
-            [foot(-half, high), foot(half, high), at(half, high), at(-half, high)],
+            [
+                foot(-half, high),
+                foot(half, high),
+                at(half, high),
+                at(-half, high),
+            ],
         );
     }
     level.add(

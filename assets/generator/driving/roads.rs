@@ -110,7 +110,11 @@ fn build_kerb(level: &mut Level, height: f32, place: &embody_scenes::course::lay
     for z in [-half.z + 0.15, half.z - 0.15] {
         for i in 0..6 {
             let x = -half.x + size.x * i as f32 / 6.0;
-            let paint = if i % 2 == 0 { Paint::White } else { Paint::Coral };
+            let paint = if i % 2 == 0 {
+                Paint::White
+            } else {
+                Paint::Coral
+            };
             mesh.patch(
                 paint,
                 Vec2::new(x, z - 0.15),
@@ -131,15 +135,20 @@ fn build_kerb(level: &mut Level, height: f32, place: &embody_scenes::course::lay
 fn waves(level: &mut Level) {
     let place = &washboard::PLACE;
     let [first, length] = washboard::WAVES;
-    road(level, "washboard", place, [-8.0, first + length + 14.0], LANE);
+    road(
+        level,
+        "washboard",
+        place,
+        [-8.0, first + length + 14.0],
+        LANE,
+    );
     station(level, place, "washboard", "WASHBOARD", Paint::Sand, 6.0);
     let step = washboard::WAVE / 10.0;
     let rows = (length / step).round() as usize;
     let points: Vec<(Vec3, Vec3)> = (0..=rows)
         .flat_map(|i| {
             let at = step * i as f32;
-            let slope =
-                (washboard::height(at + 0.01) - washboard::height(at - 0.01)) / 0.02;
+            let slope = (washboard::height(at + 0.01) - washboard::height(at - 0.01)) / 0.02;
             // Ahead is `-Z`, so what rises ahead leans back.
             let normal = Vec3::new(0.0, 1.0, slope).normalize();
             let y = washboard::height(at) + LINES;
@@ -161,7 +170,10 @@ fn stones(level: &mut Level) {
         let mut mesh = Mesh::default();
         // A block without two of its corners, turned by its number.
         let h = 0.5 * size;
-        let (w, l) = (h * (1.1 + 0.1 * (i % 3) as f32), h * (1.3 - 0.1 * (i % 4) as f32));
+        let (w, l) = (
+            h * (1.1 + 0.1 * (i % 3) as f32),
+            h * (1.3 - 0.1 * (i % 4) as f32),
+        );
         let outline = [
             Vec2::new(-w, 0.5 * l),
             Vec2::new(-0.4 * w, l),
@@ -170,7 +182,10 @@ fn stones(level: &mut Level) {
             Vec2::new(-0.7 * w, -0.8 * l),
         ];
         let ring = |part: f32, y: f32| -> Vec<Vec3> {
-            outline.iter().map(|p| Vec3::new(p.x * part, y, p.y * part)).collect()
+            outline
+                .iter()
+                .map(|p| Vec3::new(p.x * part, y, p.y * part))
+                .collect()
         };
         mesh.tint(255 - 20 * (i % 4) as u8);
         mesh.tube(

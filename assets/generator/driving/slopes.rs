@@ -55,11 +55,20 @@ fn build_hill(level: &mut Level, hill: &Hill) {
         let foot = |x: f32, p: Vec2| Vec3::new(x, -0.05, -p.x);
         let [a, b] = [pair[0], pair[1]];
         mesh.quad(Paint::Leaf, [foot(w, a), foot(w, b), at(w, b), at(w, a)]);
-        mesh.quad(Paint::Leaf, [foot(-w, b), foot(-w, a), at(-w, a), at(-w, b)]);
+        mesh.quad(
+            Paint::Leaf,
+            [foot(-w, b), foot(-w, a), at(-w, a), at(-w, b)],
+        );
     }
     level.solid_mesh(format!("{name}.ridge"), &hill.place, Vec3::ZERO, mesh);
     road(level, &name, &hill.place, [-16.0, 0.0], w);
-    road(level, &format!("{name}.out"), &hill.place, [length, length + 14.0], w);
+    road(
+        level,
+        &format!("{name}.out"),
+        &hill.place,
+        [length, length + 14.0],
+        w,
+    );
     // Both stations begin in the middle of the slope, one along it and one across.
     let middle = hill.middle();
     let (sin, cos) = sin_cos(0.5 * f64::from(hill.degrees));
@@ -90,13 +99,22 @@ fn kicker(level: &mut Level) {
     let place = &jump::PLACE;
     let lip = jump::lip();
     let far = jump::RUN_UP + lip.x + jump::GAP;
-    road(level, "jump", place, [-8.0, far + jump::landing() + 50.0], LANE);
+    road(
+        level,
+        "jump",
+        place,
+        [-8.0, far + jump::landing() + 50.0],
+        LANE,
+    );
     station(level, place, "jump", "JUMP", Paint::Rose, 6.0);
     let pieces = 10;
     let line: Vec<Vec2> = (0..=pieces)
         .map(|i| {
             let (sin, cos) = sin_cos(f64::from(jump::ANGLE) * i as f64 / pieces as f64);
-            Vec2::new(jump::RUN_UP + jump::RADIUS * sin, jump::RADIUS * (1.0 - cos))
+            Vec2::new(
+                jump::RUN_UP + jump::RADIUS * sin,
+                jump::RADIUS * (1.0 - cos),
+            )
         })
         .collect();
     let mut mesh = Mesh::default();
@@ -109,7 +127,10 @@ fn kicker(level: &mut Level) {
             .quad(Paint::Rose, [at(-w, a), at(w, a), at(w, b), at(-w, b)])
             .tint(255)
             .quad(Paint::Stone, [foot(w, a), foot(w, b), at(w, b), at(w, a)])
-            .quad(Paint::Stone, [foot(-w, b), foot(-w, a), at(-w, a), at(-w, b)]);
+            .quad(
+                Paint::Stone,
+                [foot(-w, b), foot(-w, a), at(-w, a), at(-w, b)],
+            );
         if i + 1 == pieces {
             mesh.quad(Paint::Stone, [foot(w, b), foot(-w, b), at(-w, b), at(w, b)]);
         }

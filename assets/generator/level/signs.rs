@@ -104,14 +104,7 @@ impl Level {
 }
 
 /// Letters of square dots in the plane that looks along `+Z`, centred on a point.
-pub fn text(
-    mesh: &mut Mesh,
-    paint: Paint,
-    text: &str,
-    center: Vec3,
-    wanted: f32,
-    width: f32,
-) {
+pub fn text(mesh: &mut Mesh, paint: Paint, text: &str, center: Vec3, wanted: f32, width: f32) {
     let letters = text.chars().count() as f32;
     // A long line is set smaller, so that it stays on the board.
     let dot = wanted.min(width / (6.0 * letters - 1.0));

@@ -113,7 +113,11 @@ fn car(mesh: &mut Mesh, frame: &Frame, lines: &Lines) -> (f32, f32) {
 }
 
 fn grille(mesh: &mut Mesh, z: f32, y: f32, size: Vec2) {
-    mesh.cuboid(Paint::Ink, Vec3::new(0.0, y, z), Vec3::new(size.x, size.y, 0.04));
+    mesh.cuboid(
+        Paint::Ink,
+        Vec3::new(0.0, y, z),
+        Vec3::new(size.x, size.y, 0.04),
+    );
     for i in 0..3 {
         let y = y + size.y * (i as f32 - 1.0) * 0.28;
         mesh.cuboid(

@@ -23,14 +23,23 @@ pub fn loft(mesh: &mut Mesh, sections: &[Section], paint: impl Fn(usize, usize) 
         let last = a.half.len() - 1;
         for k in 0..last {
             let j = k + 1;
-            mesh.quad(paint(i, k), [right(b, k), right(a, k), right(a, j), right(b, j)])
-                .quad(paint(i, k), [left(a, k), left(b, k), left(b, j), left(a, j)]);
+            mesh.quad(
+                paint(i, k),
+                [right(b, k), right(a, k), right(a, j), right(b, j)],
+            )
+            .quad(
+                paint(i, k),
+                [left(a, k), left(b, k), left(b, j), left(a, j)],
+            );
         }
         mesh.quad(
             paint(i, last),
             [right(b, last), right(a, last), left(a, last), left(b, last)],
         )
-        .quad(Paint::Rubber, [left(b, 0), left(a, 0), right(a, 0), right(b, 0)]);
+        .quad(
+            Paint::Rubber,
+            [left(b, 0), left(a, 0), right(a, 0), right(b, 0)],
+        );
     }
     let outline = |s: &Section| -> Vec<Vec3> {
         let n = s.half.len();
@@ -193,7 +202,14 @@ pub fn wheel(mesh: &mut Mesh, radius: f32, width: f32, rim: Paint) {
         mesh,
         Paint::Rubber,
         Vec3::ZERO,
-        &[(-h, inner), (-h, 0.9 * r), (-0.7 * h, r), (0.7 * h, r), (h, 0.9 * r), (h, inner)],
+        &[
+            (-h, inner),
+            (-h, 0.9 * r),
+            (-0.7 * h, r),
+            (0.7 * h, r),
+            (h, 0.9 * r),
+            (h, inner),
+        ],
         24,
     );
     for side in [-1.0, 1.0] {
@@ -212,7 +228,9 @@ pub fn wheel(mesh: &mut Mesh, radius: f32, width: f32, rim: Paint) {
             mesh.polygon(paint, &points);
         };
         let ring = |r: f32, count: usize| -> Vec<Vec3> {
-            (0..count).map(|i| at(360.0 * i as f64 / count as f64, r)).collect()
+            (0..count)
+                .map(|i| at(360.0 * i as f64 / count as f64, r))
+                .collect()
         };
         face(mesh, Paint::Ink, ring(inner, 24), 0.0);
         // The rim's edge.
@@ -221,7 +239,12 @@ pub fn wheel(mesh: &mut Mesh, radius: f32, width: f32, rim: Paint) {
             face(
                 mesh,
                 rim,
-                vec![at(a, 0.88 * inner), at(a, inner), at(b, inner), at(b, 0.88 * inner)],
+                vec![
+                    at(a, 0.88 * inner),
+                    at(a, inner),
+                    at(b, inner),
+                    at(b, 0.88 * inner),
+                ],
                 0.003,
             );
         }
@@ -253,7 +276,9 @@ pub fn pair(mesh: &mut Mesh, paint: Paint, center: Vec3, size: Vec3) {
 /// A bar with a square section from one point to another.
 pub fn bar(mesh: &mut Mesh, paint: Paint, from: Vec3, to: Vec3, thick: f32) {
     let way = (to - from).normalize_or(Vec3::Z);
-    let side = way.cross(if way.y.abs() > 0.9 { Vec3::X } else { Vec3::Y }).normalize();
+    let side = way
+        .cross(if way.y.abs() > 0.9 { Vec3::X } else { Vec3::Y })
+        .normalize();
     let up = side.cross(way);
     let h = 0.5 * thick;
     // Clockwise along the way.
@@ -274,7 +299,13 @@ pub fn driver(mesh: &mut Mesh, hips: Vec3, cloth: Paint, lean: f32, hands: Vec3)
         mesh,
         Paint::White,
         head,
-        &[(-0.13, 0.07), (-0.09, 0.125), (0.0, 0.145), (0.09, 0.125), (0.13, 0.07)],
+        &[
+            (-0.13, 0.07),
+            (-0.09, 0.125),
+            (0.0, 0.145),
+            (0.09, 0.125),
+            (0.13, 0.07),
+        ],
         12,
     );
     mesh.cuboid(
@@ -287,6 +318,12 @@ pub fn driver(mesh: &mut Mesh, hips: Vec3, cloth: Paint, lean: f32, hands: Vec3)
         bar(mesh, cloth, shoulders + x - Vec3::Y * 0.04, hands + x, 0.1);
         let knee = hips + Vec3::new(0.16 * side, 0.14, -0.42);
         bar(mesh, Paint::Slate, hips + x * 0.5, knee, 0.15);
-        bar(mesh, Paint::Slate, knee, knee + Vec3::new(0.02 * side, -0.3, -0.12), 0.13);
+        bar(
+            mesh,
+            Paint::Slate,
+            knee,
+            knee + Vec3::new(0.02 * side, -0.3, -0.12),
+            0.13,
+        );
     }
 }

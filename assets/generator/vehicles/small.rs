@@ -27,12 +27,21 @@ pub fn kart(mesh: &mut Mesh, frame: &Frame) {
         let point = Vec2::new;
         let section = |z: f32, w: f32, h: f32| Section {
             z,
-            half: vec![point(w, y - 0.04), point(w, y + h - 0.04), point(w - 0.05, y + h)],
+            half: vec![
+                point(w, y - 0.04),
+                point(w, y + h - 0.04),
+                point(w - 0.05, y + h),
+            ],
         };
         let mut pod = Mesh::default();
         loft(
             &mut pod,
-            &[section(-0.3, 0.07, 0.08), section(-0.22, 0.11, 0.14), section(0.24, 0.11, 0.16), section(0.3, 0.08, 0.1)],
+            &[
+                section(-0.3, 0.07, 0.08),
+                section(-0.22, 0.11, 0.14),
+                section(0.24, 0.11, 0.16),
+                section(0.3, 0.08, 0.1),
+            ],
             |_, _| Paint::Red,
         );
         for (paint, part) in pod.parts {
@@ -44,7 +53,13 @@ pub fn kart(mesh: &mut Mesh, frame: &Frame) {
             }
         }
     }
-    bar(mesh, Paint::Metal, Vec3::new(-0.5, r, rear), Vec3::new(0.5, r, rear), 0.04);
+    bar(
+        mesh,
+        Paint::Metal,
+        Vec3::new(-0.5, r, rear),
+        Vec3::new(0.5, r, rear),
+        0.04,
+    );
     mesh.cuboid(
         Paint::Ink,
         Vec3::new(0.0, y, 0.5 * (front + rear) - 0.12),
@@ -74,7 +89,11 @@ pub fn kart(mesh: &mut Mesh, frame: &Frame) {
         ],
         |_, _| Paint::White,
     );
-    mesh.cuboid(Paint::Ink, Vec3::new(0.0, y + 0.06, 0.2), Vec3::new(0.4, 0.1, 0.4));
+    mesh.cuboid(
+        Paint::Ink,
+        Vec3::new(0.0, y + 0.06, 0.2),
+        Vec3::new(0.4, 0.1, 0.4),
+    );
     bar(
         mesh,
         Paint::Ink,
@@ -82,7 +101,12 @@ pub fn kart(mesh: &mut Mesh, frame: &Frame) {
         Vec3::new(0.0, y + 0.5, 0.48),
         0.1,
     );
-    pair(mesh, Paint::Ink, Vec3::new(0.19, y + 0.2, 0.26), Vec3::new(0.04, 0.24, 0.34));
+    pair(
+        mesh,
+        Paint::Ink,
+        Vec3::new(0.19, y + 0.2, 0.26),
+        Vec3::new(0.04, 0.24, 0.34),
+    );
     mesh.cuboid(
         Paint::Metal,
         Vec3::new(0.36, y + 0.14, 0.34),
@@ -173,7 +197,11 @@ pub fn motorcycle(mesh: &mut Mesh, frame: &Frame) {
         ],
         |_, _| Paint::Red,
     );
-    mesh.cuboid(Paint::Lamp, Vec3::new(0.0, 0.9, -0.665), Vec3::new(0.12, 0.09, 0.03));
+    mesh.cuboid(
+        Paint::Lamp,
+        Vec3::new(0.0, 0.9, -0.665),
+        Vec3::new(0.12, 0.09, 0.03),
+    );
     bar(
         mesh,
         Paint::Glass,
@@ -218,7 +246,11 @@ pub fn motorcycle(mesh: &mut Mesh, frame: &Frame) {
         Vec3::new(0.0, 2.0 * r + 0.03, front + 0.03),
         Vec3::new(0.14, 0.03, 0.34),
     );
-    mesh.cuboid(Paint::Tail, Vec3::new(0.0, 0.88, 0.865), Vec3::new(0.09, 0.05, 0.02));
+    mesh.cuboid(
+        Paint::Tail,
+        Vec3::new(0.0, 0.88, 0.865),
+        Vec3::new(0.09, 0.05, 0.02),
+    );
     driver(
         mesh,
         Vec3::new(0.0, 0.86, 0.22),

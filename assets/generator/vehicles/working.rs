@@ -25,7 +25,11 @@ pub fn truck(mesh: &mut Mesh, frame: &Frame) {
         Vec3::new(0.16, 0.3, frame.hull.z - 1.0),
     );
     for z in frame.axles() {
-        mesh.cuboid(Paint::Slate, Vec3::new(0.0, hub, z), Vec3::new(1.7, 0.16, 0.2));
+        mesh.cuboid(
+            Paint::Slate,
+            Vec3::new(0.0, hub, z),
+            Vec3::new(1.7, 0.16, 0.2),
+        );
     }
     // Cab.
     let depth = 2.1;
@@ -162,7 +166,12 @@ pub fn forklift(mesh: &mut Mesh, frame: &Frame) {
     // Body with its counterweight.
     let section = |z: f32, w: f32, y0: f32, y1: f32| Section {
         z,
-        half: vec![point(w - 0.04, y0), point(w, y0 + 0.06), point(w, y1 - 0.1), point(w - 0.08, y1)],
+        half: vec![
+            point(w - 0.04, y0),
+            point(w, y0 + 0.06),
+            point(w, y1 - 0.1),
+            point(w - 0.08, y1),
+        ],
     };
     loft(
         mesh,
@@ -181,7 +190,13 @@ pub fn forklift(mesh: &mut Mesh, frame: &Frame) {
     let roof = high + 0.05;
     for (z0, z1) in [(front + 0.42, front + 0.62), (back - 0.5, back - 0.62)] {
         for x in [-half + 0.12, half - 0.12] {
-            bar(mesh, Paint::Ink, Vec3::new(x, low + 0.4, z0), Vec3::new(x, roof, z1), 0.07);
+            bar(
+                mesh,
+                Paint::Ink,
+                Vec3::new(x, low + 0.4, z0),
+                Vec3::new(x, roof, z1),
+                0.07,
+            );
         }
     }
     for i in 0..6 {
@@ -207,7 +222,11 @@ pub fn forklift(mesh: &mut Mesh, frame: &Frame) {
         Vec3::new(0.1, 2.0, 0.14),
     );
     for y in [low + 0.15, low + 1.0, low + 1.9] {
-        mesh.cuboid(Paint::Slate, Vec3::new(0.0, y, mast), Vec3::new(0.7, 0.09, 0.09));
+        mesh.cuboid(
+            Paint::Slate,
+            Vec3::new(0.0, y, mast),
+            Vec3::new(0.7, 0.09, 0.09),
+        );
     }
     mesh.cuboid(
         Paint::Ink,
@@ -268,9 +287,21 @@ pub fn tracked(mesh: &mut Mesh, frame: &Frame) {
                 let q = a.lerp(b, (k + 1) as f32 / steps as f32);
                 bar(
                     mesh,
-                    if (i + k) % 2 == 0 { Paint::Rubber } else { Paint::Ink },
-                    Vec3::new(side * middle - 0.5 * width, 0.5 * (p.y + q.y), 0.5 * (p.x + q.x)),
-                    Vec3::new(side * middle + 0.5 * width, 0.5 * (p.y + q.y), 0.5 * (p.x + q.x)),
+                    if (i + k) % 2 == 0 {
+                        Paint::Rubber
+                    } else {
+                        Paint::Ink
+                    },
+                    Vec3::new(
+                        side * middle - 0.5 * width,
+                        0.5 * (p.y + q.y),
+                        0.5 * (p.x + q.x),
+                    ),
+                    Vec3::new(
+                        side * middle + 0.5 * width,
+                        0.5 * (p.y + q.y),
+                        0.5 * (p.x + q.x),
+                    ),
                     (q - p).length().max(0.06) * 0.8,
                 );
             }
@@ -289,7 +320,12 @@ pub fn tracked(mesh: &mut Mesh, frame: &Frame) {
     let deck = low + 0.62 * (high - low);
     let section = |z: f32, w: f32, y0: f32, y1: f32| Section {
         z,
-        half: vec![point(w - 0.5, y0), point(w - 0.48, y1 - 0.42), point(w, y1 - 0.4), point(w - 0.06, y1)],
+        half: vec![
+            point(w - 0.5, y0),
+            point(w - 0.48, y1 - 0.42),
+            point(w, y1 - 0.4),
+            point(w - 0.06, y1),
+        ],
     };
     loft(
         mesh,
@@ -305,7 +341,12 @@ pub fn tracked(mesh: &mut Mesh, frame: &Frame) {
     // A cab in front, a flat bed with rails behind.
     let cab = |z: f32, w: f32, y1: f32| Section {
         z,
-        half: vec![point(w, deck - 0.02), point(w, deck + 0.08), point(w - 0.1, y1 - 0.08), point(w - 0.2, y1)],
+        half: vec![
+            point(w, deck - 0.02),
+            point(w, deck + 0.08),
+            point(w - 0.1, y1 - 0.08),
+            point(w - 0.2, y1),
+        ],
     };
     loft(
         mesh,

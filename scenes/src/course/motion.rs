@@ -144,7 +144,13 @@ mod tests {
         };
         let at = |time: f64| -pose_at(&ferry, &Transform::IDENTITY, time).translation.z;
         // 2 s to 3 m/s are 3 m, 4 s at it are 12 m, 2 s to rest are 3 m.
-        for (time, way) in [(1.0, 0.75), (2.0, 3.0), (4.0, 9.0), (6.0, 15.0), (8.0, 18.0)] {
+        for (time, way) in [
+            (1.0, 0.75),
+            (2.0, 3.0),
+            (4.0, 9.0),
+            (6.0, 15.0),
+            (8.0, 18.0),
+        ] {
             assert!((at(time) - way).abs() < 1e-4, "at {time} s: {}", at(time));
         }
     }

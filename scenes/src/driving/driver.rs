@@ -129,7 +129,13 @@ pub enum Progress {
 
 impl Driver {
     /// Looks at the vehicle: how far a step is after `elapsed` seconds.
-    pub fn progress(&mut self, step: &DriveStep, now: &DriveSample, elapsed: f32, dt: f32) -> Progress {
+    pub fn progress(
+        &mut self,
+        step: &DriveStep,
+        now: &DriveSample,
+        elapsed: f32,
+        dt: f32,
+    ) -> Progress {
         let (done, timeout) = match step {
             DriveStep::Hold { seconds, .. } => (elapsed + 0.5 * dt >= *seconds, f32::INFINITY),
             DriveStep::Follow { line, timeout, .. } => {
@@ -216,13 +222,12 @@ impl Driver {
         let full = steering.target(1.0, v).max(1e-3);
         // What the tyres give away is steered on top, until the front slides: more angle is less force
         // then.
-        let missing = if v > 2.0 {
-            curvature - yaw / v
-        } else {
-            0.0
-        };
+        let missing = if v > 2.0 { curvature - yaw / v } else { 0.0 };
         let wanted = ops::atan(wheelbase * (curvature + missing));
-        let front = now.wheels.first().map_or(0.0, |wheel| wheel.slip_angle.abs());
+        let front = now
+            .wheels
+            .first()
+            .map_or(0.0, |wheel| wheel.slip_angle.abs());
         let ease = (0.14 / front.max(0.14)).max(0.4);
         (ease * wanted / full).clamp(-1.0, 1.0)
     }

@@ -1,9 +1,7 @@
 //! What a preset can do by its numbers alone: the closed forms by which its driving is judged.
 
 use bevy::{math::ops, prelude::*};
-use bevy_embody::vehicle::{
-    Drivetrain, PowerSource, Shifting, TireModel, VehiclePreset, Wheel,
-};
+use bevy_embody::vehicle::{Drivetrain, PowerSource, Shifting, TireModel, VehiclePreset, Wheel};
 
 /// Gravity, metres per second squared.
 pub const GRAVITY: f32 = 9.81;
@@ -121,16 +119,18 @@ impl Figures {
     /// springs are pressed together: negative scrapes, metres.
     pub fn clearance_in(&self, radius: f32) -> f32 {
         let (base, over) = (self.wheelbase(), self.overhang());
-        let sag = 1.0 / self.ends(|wheel| match wheel.suspension.spring {
-            bevy_embody::vehicle::SpringRate::RideFrequency(hz) => {
-                let omega = core::f32::consts::TAU * hz;
-                omega * omega / GRAVITY
-            }
-            bevy_embody::vehicle::SpringRate::Stiffness(k) => {
-                k * self.wheels().len() as f32 / self.weight()
-            }
-        })
-        .1;
+        let sag = 1.0
+            / self
+                .ends(|wheel| match wheel.suspension.spring {
+                    bevy_embody::vehicle::SpringRate::RideFrequency(hz) => {
+                        let omega = core::f32::consts::TAU * hz;
+                        omega * omega / GRAVITY
+                    }
+                    bevy_embody::vehicle::SpringRate::Stiffness(k) => {
+                        k * self.wheels().len() as f32 / self.weight()
+                    }
+                })
+                .1;
         let bump = self.ends(|wheel| wheel.suspension.travel).1 - sag;
         self.clearance() + RISE * over - bump - over * (base + over) / (2.0 * radius)
     }
@@ -146,7 +146,10 @@ impl Figures {
             .map(|wheel| wheel.attachment.z - center.z)
             .collect();
         let n = arms.len() as f32;
-        let (s1, s2) = (arms.iter().sum::<f32>(), arms.iter().map(|a| a * a).sum::<f32>());
+        let (s1, s2) = (
+            arms.iter().sum::<f32>(),
+            arms.iter().map(|a| a * a).sum::<f32>(),
+        );
         let sum = self.weight() * cos;
         let moment = center.y * (self.weight() * sin + self.mass() * acceleration);
         let b = (n * moment - s1 * sum) / (n * s2 - s1 * s1);
@@ -189,7 +192,11 @@ impl Figures {
     pub fn braking(&self, slope: f32) -> [f32; 2] {
         let brakes = &self.preset.vehicle.brakes;
         let hold = |wheel: &Wheel, grip: f32| {
-            let hand = if wheel.handbrake { brakes.hand_torque } else { 0.0 };
+            let hand = if wheel.handbrake {
+                brakes.hand_torque
+            } else {
+                0.0
+            };
             ((self.foot_brake(wheel) + hand) / wheel.radius).min(grip)
         };
         let mut held = [0.0; 2];
@@ -261,7 +268,10 @@ impl Figures {
         };
         let radius = self.radius();
         let ratio = drivetrain.gearbox.forward.first().copied().unwrap_or(1.0);
-        Self::torque(&drivetrain.source, rpm) * ratio * drivetrain.final_drive * drivetrain.efficiency
+        Self::torque(&drivetrain.source, rpm)
+            * ratio
+            * drivetrain.final_drive
+            * drivetrain.efficiency
             / radius
     }
 
@@ -312,13 +322,7 @@ impl Figures {
             .first()
             .map_or(0.0, |w| w.tire.rolling_resistance)
             * self.weight();
-        let drag = 0.5
-            * 1.225
-            * self
-                .preset
-                .vehicle
-                .aero
-                .map_or(0.0, |aero| aero.drag_area);
+        let drag = 0.5 * 1.225 * self.preset.vehicle.aero.map_or(0.0, |aero| aero.drag_area);
         let (mut gear, mut pause, mut acceleration) = (0usize, 0.0f32, 0.0f32);
         let mut at = Sprint {
             time: 0.0,
@@ -326,7 +330,8 @@ impl Figures {
         };
         while go_on(at, dt) {
             let ratio = |gear: usize| {
-                drivetrain.gearbox.forward.get(gear).copied().unwrap_or(1.0) * drivetrain.final_drive
+                drivetrain.gearbox.forward.get(gear).copied().unwrap_or(1.0)
+                    * drivetrain.final_drive
             };
             let rpm = |gear: usize| at.speed / radius * ratio(gear) * 60.0 / core::f32::consts::TAU;
             if let Shifting::Automatic { up, .. } = drivetrain.gearbox.shifting
@@ -369,7 +374,11 @@ mod tests {
         for figures in Figures::all() {
             let flat = figures.loads(0.0, 0.0);
             let sum: f32 = flat.iter().sum();
-            assert!((sum / figures.weight() - 1.0).abs() < 1e-3, "{}", figures.name);
+            assert!(
+                (sum / figures.weight() - 1.0).abs() < 1e-3,
+                "{}",
+                figures.name
+            );
             let up = figures.loads(0.3, 0.0);
             assert!(up[0] < flat[0], "{}", figures.name);
         }
@@ -381,7 +390,15 @@ mod tests {
             let figures = Figures::all().into_iter().find(|f| f.name == name);
             figures.map_or(0.0, |f| f.top_speed() * 3.6)
         };
-        assert!((150.0..200.0).contains(&top("hatchback")), "{}", top("hatchback"));
-        assert!((15.0..25.0).contains(&top("forklift")), "{}", top("forklift"));
+        assert!(
+            (150.0..200.0).contains(&top("hatchback")),
+            "{}",
+            top("hatchback")
+        );
+        assert!(
+            (15.0..25.0).contains(&top("forklift")),
+            "{}",
+            top("forklift")
+        );
     }
 }

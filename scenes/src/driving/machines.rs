@@ -48,16 +48,19 @@ fn planks() -> DriveStation {
             ];
             let speed = (0.8 * figures.top_speed()).min(4.0);
             Ok(Plan::of([DriveStep::follow(&line, speed, 40.0)])
-                .ask("the planks bear it: none lower than 0.5 m above the ground", |trace| {
-                    let lowest = |s: &DriveSample| {
-                        s.nodes
-                            .iter()
-                            .map(|n| n.translation.y)
-                            .fold(f32::INFINITY, f32::min)
-                    };
-                    let (low, _) = range(&trace.samples, lowest);
-                    Verdict::new(low > 0.5, format!("{low:.2} m"))
-                })
+                .ask(
+                    "the planks bear it: none lower than 0.5 m above the ground",
+                    |trace| {
+                        let lowest = |s: &DriveSample| {
+                            s.nodes
+                                .iter()
+                                .map(|n| n.translation.y)
+                                .fold(f32::INFINITY, f32::min)
+                        };
+                        let (low, _) = range(&trace.samples, lowest);
+                        Verdict::new(low > 0.5, format!("{low:.2} m"))
+                    },
+                )
                 .ask("no plank parts from the next by more than 5 cm", |trace| {
                     let gap = |s: &DriveSample| {
                         s.nodes
@@ -76,7 +79,9 @@ fn planks() -> DriveStation {
                 .ask_upright())
         },
     );
-    (0..bridge::PLANKS).fold(station, |station, i| station.track(format!("bridge.plank.{i}")))
+    (0..bridge::PLANKS).fold(station, |station, i| {
+        station.track(format!("bridge.plank.{i}"))
+    })
 }
 
 fn board() -> DriveStation {
@@ -90,22 +95,32 @@ fn board() -> DriveStation {
             let speed = (0.7 * figures.top_speed()).min(2.5);
             let end = hinge + half + car_seesaw::RAMP + 7.0;
             // Positive while the end towards the start is down.
-            let tilt = |s: &DriveSample| -ops::asin((node(s, 0).rotation * Vec3::Z).y.clamp(-1.0, 1.0));
+            let tilt =
+                |s: &DriveSample| -ops::asin((node(s, 0).rotation * Vec3::Z).y.clamp(-1.0, 1.0));
             let most = car_seesaw::TILT;
             Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 40.0)])
-                .ask("the near end is down until it has passed the hinge", move |trace| {
-                    let before: Vec<DriveSample> = trace
-                        .samples
-                        .iter()
-                        .filter(|s| s.time > 0.5 && -s.center.z < hinge - 0.4)
-                        .cloned()
-                        .collect();
-                    let (low, _) = range(&before, tilt);
-                    Verdict::new(low > 0.8 * most, format!("{:+.1} degrees", low.to_degrees()))
-                })
+                .ask(
+                    "the near end is down until it has passed the hinge",
+                    move |trace| {
+                        let before: Vec<DriveSample> = trace
+                            .samples
+                            .iter()
+                            .filter(|s| s.time > 0.5 && -s.center.z < hinge - 0.4)
+                            .cloned()
+                            .collect();
+                        let (low, _) = range(&before, tilt);
+                        Verdict::new(
+                            low > 0.8 * most,
+                            format!("{:+.1} degrees", low.to_degrees()),
+                        )
+                    },
+                )
                 .ask("then the far end goes down", move |trace| {
                     let (low, _) = range(&trace.samples, tilt);
-                    Verdict::new(low < -0.8 * most, format!("{:+.1} degrees", low.to_degrees()))
+                    Verdict::new(
+                        low < -0.8 * most,
+                        format!("{:+.1} degrees", low.to_degrees()),
+                    )
                 })
                 .ask_upright())
         },
@@ -133,23 +148,34 @@ fn ask_carried(
 ) -> Plan {
     plan.ask("carried: at the end within 2 mm of its spot", |trace| {
         let ticks = after(trace.step(0), 1.0);
-        let ends: Vec<DriveSample> = ticks.first().into_iter().chain(ticks.last()).cloned().collect();
+        let ends: Vec<DriveSample> = ticks
+            .first()
+            .into_iter()
+            .chain(ticks.last())
+            .cloned()
+            .collect();
         let way = drift(&ends);
         Verdict::at_most(way.into(), 2e-3, format!("{:.3} mm", 1e3 * way))
     })
-    .ask("on the way never further from it than a tick's way", move |trace| {
-        let way = drift(after(trace.step(0), 1.0));
-        let tick = f64::from(speed) * trace.dt;
-        Verdict::at_most(
-            way.into(),
-            tick,
-            format!("{:.1} mm, a tick is {:.1} mm", 1e3 * way, 1e3 * tick),
-        )
-    })
-    .ask("at constant speed the wheels carry its weight within 0.5 %", move |trace| {
-        let got = mean(moving(trace), |s| s.telemetry.load / weight);
-        Verdict::close(got.into(), 1.0, 0.005, format!("{got:.4} m g"))
-    })
+    .ask(
+        "on the way never further from it than a tick's way",
+        move |trace| {
+            let way = drift(after(trace.step(0), 1.0));
+            let tick = f64::from(speed) * trace.dt;
+            Verdict::at_most(
+                way.into(),
+                tick,
+                format!("{:.1} mm, a tick is {:.1} mm", 1e3 * way, 1e3 * tick),
+            )
+        },
+    )
+    .ask(
+        "at constant speed the wheels carry its weight within 0.5 %",
+        move |trace| {
+            let got = mean(moving(trace), |s| s.telemetry.load / weight);
+            Verdict::close(got.into(), 1.0, 0.005, format!("{got:.4} m g"))
+        },
+    )
 }
 
 fn deck() -> DriveStation {
@@ -185,7 +211,11 @@ fn lift() -> DriveStation {
     let arrival = car_lift::WAIT + car_lift::RISE;
     DriveStation::new(
         "car_lift",
-        format!("rise {:.0} m at {:.0} m/s and drive off", car_lift::TRAVEL, car_lift::SPEED),
+        format!(
+            "rise {:.0} m at {:.0} m/s and drive off",
+            car_lift::TRAVEL,
+            car_lift::SPEED
+        ),
         car_lift::PLACE,
         move |figures| {
             if figures.preset.hull.z > car_lift::SIZE.z {

@@ -63,7 +63,10 @@ fn kerb(kerb: Kerb) -> DriveStation {
             let most = 2.0 * kerb.height + 0.05;
             Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 30.0)])
                 .ask(
-                    format!("is not thrown: its centre rises by less than {:.0} cm", 100.0 * most),
+                    format!(
+                        "is not thrown: its centre rises by less than {:.0} cm",
+                        100.0 * most
+                    ),
                     move |trace| {
                         let got = rise(trace);
                         Verdict::at_most(got.into(), most.into(), format!("{:.1} cm", 100.0 * got))
@@ -95,10 +98,13 @@ fn waves() -> DriveStation {
                 DriveStep::ahead(washboard::WAVES[0] + 4.0, end - 2.0, speed, 30.0),
                 DriveStep::ahead(end - 2.0, end + 8.0, speed, 30.0),
             ])
-            .ask("over whole waves the wheels carry its weight within 3 %", move |trace| {
-                let got = mean(trace.step(1), |s| s.telemetry.load / weight);
-                Verdict::close(got.into(), 1.0, 0.03, format!("{got:.3} m g"))
-            })
+            .ask(
+                "over whole waves the wheels carry its weight within 3 %",
+                move |trace| {
+                    let got = mean(trace.step(1), |s| s.telemetry.load / weight);
+                    Verdict::close(got.into(), 1.0, 0.03, format!("{got:.3} m g"))
+                },
+            )
             .ask_upright())
         },
     )
@@ -119,7 +125,10 @@ fn stones() -> DriveStation {
             let most = rubble::LARGEST + 0.05;
             Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 40.0)])
                 .ask(
-                    format!("is not thrown: its centre rises by less than {:.0} cm", 100.0 * most),
+                    format!(
+                        "is not thrown: its centre rises by less than {:.0} cm",
+                        100.0 * most
+                    ),
                     move |trace| {
                         let got = rise(trace);
                         Verdict::at_most(got.into(), most.into(), format!("{:.1} cm", 100.0 * got))

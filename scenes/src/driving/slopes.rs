@@ -2,10 +2,7 @@
 
 use bevy::{math::ops, prelude::*};
 
-use super::{
-    DriveSample, DriveStation, DriveStep, Figures, GRAVITY, Plan,
-    trace::end,
-};
+use super::{DriveSample, DriveStation, DriveStep, Figures, GRAVITY, Plan, trace::end};
 use crate::{
     course::layout::driving::{HILL_TOP, Hill, hills, jump, looping},
     stations::Verdict,

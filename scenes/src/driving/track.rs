@@ -111,12 +111,20 @@ fn pad() -> DriveStation {
             let tires = figures.grip(0.0, 0.0, |_| true).y / figures.weight();
             let lean = if figures.leans() { 0.8 } else { f32::INFINITY };
             // Half of the tyres' grip goes into turning tracks against their own length.
-            let scrub = if figures.tracked() { 0.35 * tires } else { f32::INFINITY };
+            let scrub = if figures.tracked() {
+                0.35 * tires
+            } else {
+                f32::INFINITY
+            };
             // Turning shifts load to the outer wheels, and tyres under load hold less of it.
             let tires = tires * {
                 let tire = &figures.preset.wheels[0].tire;
                 let mean = figures.weight() / figures.preset.wheels.len() as f32;
-                let shift = if figures.leans() { 0.0 } else { tires / figures.tipping() };
+                let shift = if figures.leans() {
+                    0.0
+                } else {
+                    tires / figures.tipping()
+                };
                 let loaded = mean / tire.nominal_load;
                 let plain = 1.0 - tire.load_sensitivity * (loaded - 1.0);
                 (plain - tire.load_sensitivity * loaded * shift * shift) / plain
@@ -127,7 +135,9 @@ fn pad() -> DriveStation {
             let most = ops::sqrt(1.2 * tires * GRAVITY * radius);
             // A rigid axle scrubs in every turn, so it never has all of its grip to the side.
             let rigid = figures.preset.vehicle.drivetrain.as_ref().is_some_and(|d| {
-                d.axles.iter().any(|axle| axle.differential == Differential::Locked)
+                d.axles
+                    .iter()
+                    .any(|axle| axle.differential == Differential::Locked)
             });
             let slides = limit == tires && most < top && !figures.leans() && !rigid;
             let mut steps = vec![DriveStep::follow(
@@ -153,7 +163,9 @@ fn pad() -> DriveStation {
                     let ticks = end(trace.step(0), 3.0);
                     let (near, far) = range(ticks, radius_of);
                     let off = (near - radius).abs().max((far - radius).abs());
-                    let got = mean(ticks, |s| s.velocity.length_squared() / (radius_of(s) * GRAVITY));
+                    let got = mean(ticks, |s| {
+                        s.velocity.length_squared() / (radius_of(s) * GRAVITY)
+                    });
                     Verdict::new(
                         off <= 1.5 && (got / asked - 1.0).abs() < 0.15,
                         format!("{near:.2} to {far:.2} m at {got:.2} g"),
@@ -190,7 +202,10 @@ fn strip() -> DriveStation {
             let run = DriveStep::ahead(0.0, drag::LENGTH, f32::INFINITY, 1.5 * sprint.time + 5.0);
             Ok(Plan::of([run])
                 .ask(
-                    format!("takes {:.2} s by mass, power and grip, within 6 %", sprint.time),
+                    format!(
+                        "takes {:.2} s by mass, power and grip, within 6 %",
+                        sprint.time
+                    ),
                     move |trace| {
                         let moves = trace.samples.iter().find(|s| s.telemetry.speed > 0.05);
                         match (moves, trace.last()) {
@@ -269,15 +284,24 @@ fn slippery() -> DriveStation {
                     None => Verdict::never("stopped"),
                 }
             };
-            let all = figures.preset.wheels.iter().all(|w| figures.foot_brake(w) > 0.0);
-            let plan = Plan::of(steps)
-                .ask(format!("locked on wet ground slows by {wet:.2} m/s² within 10 %"), judge(1, wet));
+            let all = figures
+                .preset
+                .wheels
+                .iter()
+                .all(|w| figures.foot_brake(w) > 0.0);
+            let plan = Plan::of(steps).ask(
+                format!("locked on wet ground slows by {wet:.2} m/s² within 10 %"),
+                judge(1, wet),
+            );
             // With nothing but the rear wheels locked it turns round on the ice.
             if !all {
                 return Ok(plan);
             }
             Ok(plan
-                .ask(format!("locked on ice slows by {icy:.2} m/s² within 10 %"), judge(3, icy))
+                .ask(
+                    format!("locked on ice slows by {icy:.2} m/s² within 10 %"),
+                    judge(3, icy),
+                )
                 .ask(
                     format!("stops {:.1} times as long on ice within 10 %", wet / icy),
                     move |trace| match (braking(trace, 1), braking(trace, 3)) {

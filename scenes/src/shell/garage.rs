@@ -159,8 +159,9 @@ fn get_in_or_out(world: &mut World) {
         }
         let aside = 0.5 * figures.preset.hull.x + 0.7;
         let foot = level(&at);
-        let door = Transform::from_translation(foot.translation + foot.left() * aside + Vec3::Y * 0.3)
-            .with_rotation(foot.rotation);
+        let door =
+            Transform::from_translation(foot.translation + foot.left() * aside + Vec3::Y * 0.3)
+                .with_rotation(foot.rotation);
         stand(world, door);
         return;
     }
@@ -168,7 +169,12 @@ fn get_in_or_out(world: &mut World) {
     let nearest = parked
         .iter(world)
         .map(|(vehicle, pose, model)| {
-            (pose.translation.distance(at.translation), vehicle, *pose, model.0)
+            (
+                pose.translation.distance(at.translation),
+                vehicle,
+                *pose,
+                model.0,
+            )
         })
         .min_by(|a, b| a.0.total_cmp(&b.0));
     match nearest {

@@ -179,9 +179,9 @@ fn begin(
             None => warn!("there is no station {name}; starting at the first"),
         }
     }
-    let (at, drive) = visit
-        .stop()
-        .map_or((Transform::IDENTITY, false), |stop| (stop.start, stop.drive));
+    let (at, drive) = visit.stop().map_or((Transform::IDENTITY, false), |stop| {
+        (stop.start, stop.drive)
+    });
     if drive {
         commands.queue(move |world: &mut World| garage::drive(world, at));
     } else {
@@ -388,7 +388,8 @@ fn announce(
         hud.title = format!("{}/{}  {}", visit.current + 1, visit.stops.len(), stop.name);
         if stop.drive || !driving.is_empty() {
             let help = if garage.assists { "" } else { ", no helpers" };
-            hud.title.push_str(&format!("  ({}{help})", garage.figures().name));
+            hud.title
+                .push_str(&format!("  ({}{help})", garage.figures().name));
         }
         hud.detail.clone_from(&stop.describe);
     }

@@ -66,7 +66,11 @@ pub fn table(results: &[StationResult]) -> String {
     let mut text = String::new();
     for result in results {
         if let Some(why) = &result.exempt {
-            let _ = writeln!(text, "{:name$}  --    {:asked$}  {why}", result.name, "not asked");
+            let _ = writeln!(
+                text,
+                "{:name$}  --    {:asked$}  {why}",
+                result.name, "not asked"
+            );
         }
         for (i, check) in result.checks.iter().enumerate() {
             let mark = if check.pass { "ok  " } else { "FAIL" };

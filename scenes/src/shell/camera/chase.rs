@@ -40,7 +40,13 @@ pub(super) fn chase(
             continue;
         }
         let first = rig.eye == 0.0;
-        let blend = |rate: f32| if first { 1.0 } else { 1.0 - ops::exp(-rate * seconds) };
+        let blend = |rate: f32| {
+            if first {
+                1.0
+            } else {
+                1.0 - ops::exp(-rate * seconds)
+            }
+        };
         // On the ground up is the vehicle's, so loops and banks are followed; in the air the world's.
         let up = if telemetry.grounded > 1 {
             pose.rotation * Vec3::Y
@@ -62,7 +68,11 @@ pub(super) fn chase(
         rig.eye = 1.0;
         if rig.mode == CameraMode::FirstPerson {
             // The head turns against the car.
-            let turned = if rig.idle > PATIENCE { 0.0 } else { rig.yaw - heading };
+            let turned = if rig.idle > PATIENCE {
+                0.0
+            } else {
+                rig.yaw - heading
+            };
             camera.rotation = pose.rotation * Quat::from_rotation_y(turned);
             camera.translation = pose.transform_point(seat.eyes);
             continue;

@@ -6,8 +6,8 @@ use bevy_enhanced_input::prelude::*;
 
 use super::{
     actions::{Brake, Crouch, Fly, Jump, Look, Move, Sprint, Throttle, Zoom},
-    drive::{HeldWheel, write_drive},
     button::Button,
+    drive::{HeldWheel, write_drive},
 };
 use crate::shell::{
     Player,

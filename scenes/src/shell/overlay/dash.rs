@@ -89,8 +89,16 @@ pub(super) fn gauges() -> impl Bundle {
             (
                 Node::default(),
                 children![
-                    wheel(0), wheel(1), wheel(2), wheel(3), wheel(4),
-                    wheel(5), wheel(6), wheel(7), wheel(8), wheel(9),
+                    wheel(0),
+                    wheel(1),
+                    wheel(2),
+                    wheel(3),
+                    wheel(4),
+                    wheel(5),
+                    wheel(6),
+                    wheel(7),
+                    wheel(8),
+                    wheel(9),
                 ],
             ),
         ],
@@ -196,7 +204,8 @@ fn fill(
             }
             Gauge::Frame(i) => node.display = show(i < tied.iter().count().min(BARS)),
             Gauge::Load(i) => {
-                let Some(state) = tied.iter().nth(i).and_then(|wheel| wheels.get(wheel).ok()) else {
+                let Some(state) = tied.iter().nth(i).and_then(|wheel| wheels.get(wheel).ok())
+                else {
                     continue;
                 };
                 // A wheel that carries its share of the weight fills half of its bar.

@@ -144,7 +144,12 @@ fn write_state(
                     state.height,
                     contacts.contacts.len(),
                     contacts.queries,
-                    clocks(&diagnostics, &fixed, &clock, &CharacterDiagnostics::TICK_TIME),
+                    clocks(
+                        &diagnostics,
+                        &fixed,
+                        &clock,
+                        &CharacterDiagnostics::TICK_TIME
+                    ),
                 ),
                 color.0,
             ),
