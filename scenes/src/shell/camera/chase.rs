@@ -59,7 +59,7 @@ pub(super) fn chase(
         rig.idle += seconds;
         let ahead = rig.base.inverse() * (pose.rotation * Vec3::NEG_Z);
         let heading = ops::atan2(-ahead.x, -ahead.z);
-        if rig.idle > PATIENCE || first {
+        if rig.idle > PATIENCE {
             let off = (heading - rig.yaw + core::f32::consts::PI)
                 .rem_euclid(core::f32::consts::TAU)
                 - core::f32::consts::PI;
