@@ -1,5 +1,7 @@
 //! Writes a level as a binary glTF 2.0 file.
 
+use std::collections::BTreeSet;
+
 use bevy::math::Vec3;
 use embody_scenes::course::extras::{EXTRAS_KEY, NodeExtras};
 use serde_json::{Value, json};
@@ -60,7 +62,7 @@ impl Buffer {
         self.add(&bytes, ARRAY, accessor)
     }
 
-    fn primitive(&mut self, paint: Paint, part: &Part) -> Value {
+    fn primitive(&mut self, material: usize, part: &Part) -> Value {
         let mut attributes = json!({
             "POSITION": self.vectors(&part.positions, true),
             "NORMAL": self.vectors(&part.normals, false),
@@ -100,7 +102,7 @@ impl Buffer {
         json!({
             "attributes": attributes,
             "indices": indices,
-            "material": Paint::ALL.iter().position(|p| *p == paint),
+            "material": material,
         })
     }
 }
@@ -123,6 +125,12 @@ fn material(paint: Paint) -> Value {
 /// The whole file.
 pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
     let mut buffer = Buffer::default();
+    // Only what is used, in the order of the palette.
+    let used: BTreeSet<Paint> = level
+        .nodes
+        .iter()
+        .flat_map(|node| node.mesh.parts.keys().copied())
+        .collect();
     let mut meshes: Vec<Value> = Vec::new();
     let mut known: Vec<&Mesh> = Vec::new();
     let mut nodes = Vec::new();
@@ -144,7 +152,7 @@ pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
                         .mesh
                         .parts
                         .iter()
-                        .map(|(paint, part)| buffer.primitive(*paint, part))
+                        .map(|(paint, part)| buffer.primitive(used.range(..paint).count(), part))
                         .collect();
                     meshes.push(json!({ "name": node.name, "primitives": primitives }));
                     known.push(&node.mesh);
@@ -162,10 +170,10 @@ pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
     let document = json!({
         "asset": { "version": "2.0", "generator": "bevy_embody course generator" },
         "scene": 0,
-        "scenes": [{ "name": "course", "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
+        "scenes": [{ "name": level.name, "nodes": (0..nodes.len()).collect::<Vec<_>>() }],
         "nodes": nodes,
         "meshes": meshes,
-        "materials": Paint::ALL.map(material),
+        "materials": used.iter().copied().map(material).collect::<Vec<_>>(),
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{ "byteLength": buffer.bytes.len() }],

@@ -1,14 +1,16 @@
-//! Makes `assets/course.glb`, the level of the playground: `cargo run -p embody_scenes --bin
-//! generate_assets`. With `--check` it writes nothing and fails if the file is not what it makes.
+//! Makes the levels and models of the playground: `cargo run -p embody_scenes --bin
+//! generate_assets`. With `--check` it writes nothing and fails if a file is not what it makes.
 //!
-//! The measures are in `embody_scenes::course::layout`, from which the stations judge; what is
-//! here is how things look and what they are made of.
+//! The measures are in `embody_scenes::course::layout`, from which the stations judge, and those of
+//! the vehicles in their presets; what is here is how things look and what they are made of.
 
+mod driving;
 mod font;
 mod glb;
 mod level;
 mod mesh;
 mod paint;
+mod vehicles;
 
 use std::{
     path::{Path, PathBuf},
@@ -17,14 +19,29 @@ use std::{
 
 use level::Level;
 
-/// Where the level is.
-fn course() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/course.glb")
+/// Name of a file, and what fills it.
+type Asset = (&'static str, fn(&mut Level));
+
+/// Every file: the walking course, the proving ground, the vehicles.
+const ASSETS: [Asset; 3] = [
+    ("course", level::build),
+    ("proving_ground", driving::build),
+    ("vehicles", vehicles::build),
+];
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../assets")
+        .join(name)
+        .with_extension("glb")
 }
 
-fn build() -> Level {
-    let mut level = Level::default();
-    level::build(&mut level);
+fn build((name, fill): Asset) -> Level {
+    let mut level = Level {
+        name,
+        ..Level::default()
+    };
+    fill(&mut level);
     level
 }
 
@@ -35,38 +52,35 @@ fn build() -> Level {
 )]
 fn main() -> ExitCode {
     let check = std::env::args().any(|argument| argument == "--check");
-    let path = course();
-    let level = build();
-    let bytes = match glb::encode(&level) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            eprintln!("cannot encode the level: {error}");
-            return ExitCode::FAILURE;
+    for asset in ASSETS {
+        match make(asset, check) {
+            Ok(line) => println!("{line}"),
+            Err(line) => {
+                eprintln!("{line}");
+                return ExitCode::FAILURE;
+            }
         }
-    };
+    }
+    ExitCode::SUCCESS
+}
+
+/// Writes or checks a file; says what came of it.
+fn make(asset: Asset, check: bool) -> Result<String, String> {
+    let path = path(asset.0);
+    let level = build(asset);
+    let bytes =
+        glb::encode(&level).map_err(|error| format!("cannot encode {}: {error}", asset.0))?;
+    let at = path.display();
     if check {
         return match std::fs::read(&path) {
-            Ok(found) if found == bytes => {
-                println!("{} is what the generator makes", path.display());
-                ExitCode::SUCCESS
-            }
-            Ok(_) => {
-                eprintln!("{} is not what the generator makes", path.display());
-                ExitCode::FAILURE
-            }
-            Err(error) => {
-                eprintln!("cannot read {}: {error}", path.display());
-                ExitCode::FAILURE
-            }
+            Ok(found) if found == bytes => Ok(format!("{at} is what the generator makes")),
+            Ok(_) => Err(format!("{at} is not what the generator makes")),
+            Err(error) => Err(format!("cannot read {at}: {error}")),
         };
     }
-    if let Err(error) = std::fs::write(&path, &bytes) {
-        eprintln!("cannot write {}: {error}", path.display());
-        return ExitCode::FAILURE;
-    }
-    println!(
-        "{}: {} nodes, {} triangles, {} bytes",
-        path.display(),
+    std::fs::write(&path, &bytes).map_err(|error| format!("cannot write {at}: {error}"))?;
+    Ok(format!(
+        "{at}: {} nodes, {} triangles, {} bytes",
         level.nodes.len(),
         level
             .nodes
@@ -74,19 +88,17 @@ fn main() -> ExitCode {
             .map(|node| node.mesh.triangles())
             .sum::<usize>(),
         bytes.len()
-    );
-    ExitCode::SUCCESS
+    ))
 }
 
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_course_is_what_its_generator_makes() {
-        let made = super::glb::encode(&super::build()).expect("the level can be encoded");
-        let found = std::fs::read(super::course()).expect("the level is there");
-        assert!(
-            made == found,
-            "assets/course.glb is not what the generator makes"
-        );
+    fn every_file_is_what_its_generator_makes() {
+        for asset in super::ASSETS {
+            let made = super::glb::encode(&super::build(asset)).expect("it can be encoded");
+            let found = std::fs::read(super::path(asset.0)).expect("it is there");
+            assert!(made == found, "{} is not what the generator makes", asset.0);
+        }
     }
 }

@@ -137,6 +137,48 @@ impl Mesh {
         self
     }
 
+    /// A body between rings of equally many points; each ring is clockwise, seen along the way from
+    /// the first to the last.
+    pub fn tube(&mut self, paint: Paint, rings: &[Vec<Vec3>]) -> &mut Self {
+        for pair in rings.windows(2) {
+            let count = pair[0].len();
+            for i in 0..count {
+                let j = (i + 1) % count;
+                self.quad(paint, [pair[0][i], pair[0][j], pair[1][j], pair[1][i]]);
+            }
+        }
+        if let (Some(first), Some(last)) = (rings.first(), rings.last()) {
+            let mut back = first.clone();
+            back.reverse();
+            self.polygon(paint, &back).polygon(paint, last);
+        }
+        self
+    }
+
+    /// Two triangles; the corners need not lie in a plane, some may be equal.
+    pub fn quad(&mut self, paint: Paint, [a, b, c, d]: [Vec3; 4]) -> &mut Self {
+        for triangle in [[a, b, c], [a, c, d]] {
+            let [p, q, r] = triangle;
+            if (q - p).cross(r - p).length_squared() > 1e-12 {
+                self.triangle(paint, triangle);
+            }
+        }
+        self
+    }
+
+    /// A level rectangle seen from above, by its corners on the map.
+    pub fn patch(&mut self, paint: Paint, min: Vec2, max: Vec2, y: f32) -> &mut Self {
+        self.polygon(
+            paint,
+            &[
+                Vec3::new(min.x, y, max.y),
+                Vec3::new(max.x, y, max.y),
+                Vec3::new(max.x, y, min.y),
+                Vec3::new(min.x, y, min.y),
+            ],
+        )
+    }
+
     /// A box by its middle and full size.
     pub fn cuboid(&mut self, paint: Paint, center: Vec3, size: Vec3) -> &mut Self {
         let h = size * 0.5;

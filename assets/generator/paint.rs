@@ -18,27 +18,22 @@ pub enum Paint {
     Metal,
     Rose,
     Water,
+    Grass,
+    Asphalt,
+    Wet,
+    Ice,
+    Red,
+    Blue,
+    Green,
+    Yellow,
+    Silver,
+    Glass,
+    Rubber,
+    Lamp,
+    Tail,
 }
 
 impl Paint {
-    pub const ALL: [Self; 15] = [
-        Self::Plaza,
-        Self::Stone,
-        Self::Slate,
-        Self::Ink,
-        Self::White,
-        Self::Teal,
-        Self::Coral,
-        Self::Indigo,
-        Self::Amber,
-        Self::Sand,
-        Self::Leaf,
-        Self::Wood,
-        Self::Metal,
-        Self::Rose,
-        Self::Water,
-    ];
-
     pub fn name(self) -> String {
         format!("{self:?}").to_lowercase()
     }
@@ -61,6 +56,19 @@ impl Paint {
             Self::Metal => 0x97a1a9,
             Self::Rose => 0xc4707f,
             Self::Water => 0x3f97c8,
+            Self::Grass => 0x8fae76,
+            Self::Asphalt => 0x6b6f74,
+            Self::Wet => 0x44525e,
+            Self::Ice => 0xd4ecf7,
+            Self::Red => 0xc93a32,
+            Self::Blue => 0x2f62a8,
+            Self::Green => 0x5d6f45,
+            Self::Yellow => 0xf0b429,
+            Self::Silver => 0xc9d0d6,
+            Self::Glass => 0x26323d,
+            Self::Rubber => 0x26282b,
+            Self::Lamp => 0xfff6d8,
+            Self::Tail => 0xa61e22,
         }
     }
 
@@ -71,13 +79,20 @@ impl Paint {
     pub fn roughness(self) -> f32 {
         match self {
             Self::Water => 0.1,
+            Self::Wet => 0.2,
+            Self::Ice | Self::Glass => 0.15,
+            Self::Red | Self::Blue | Self::Yellow | Self::Silver => 0.35,
             Self::Metal => 0.45,
             _ => 0.85,
         }
     }
 
     pub fn metallic(self) -> f32 {
-        if self == Self::Metal { 0.6 } else { 0.0 }
+        match self {
+            Self::Metal => 0.6,
+            Self::Silver => 0.3,
+            _ => 0.0,
+        }
     }
 
     /// Linear RGBA as glTF wants it.

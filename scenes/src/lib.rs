@@ -2,6 +2,7 @@
 
 pub mod builders;
 pub mod course;
+pub mod driving;
 pub mod harness;
 pub mod reference;
 #[cfg(feature = "window")]

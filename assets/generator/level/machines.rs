@@ -63,6 +63,7 @@ fn build_lift(level: &mut Level, lift: &Lift) {
                 speed: lift.speed,
                 wait_near: LIFT_WAIT,
                 wait_far: 0.0,
+                ramp: 0.0,
             },
         ),
     );
@@ -243,6 +244,7 @@ fn board(level: &mut Level) {
         NodeExtras {
             hinge: Some(Hinge {
                 on: "seesaw.stand".into(),
+                on_anchor: [0.0; 3],
                 anchor: [0.0; 3],
                 axis: [1.0, 0.0, 0.0],
                 limit: seesaw::TILT,

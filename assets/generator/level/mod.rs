@@ -1,10 +1,10 @@
 //! The level, family by family.
 
-mod ground;
+pub mod ground;
 mod machines;
 mod obstacles;
 mod places;
-mod signs;
+pub mod signs;
 mod slopes;
 mod stairs;
 
@@ -27,6 +27,8 @@ pub struct Node {
 /// All nodes.
 #[derive(Default)]
 pub struct Level {
+    /// What its scene is called in the file.
+    pub name: &'static str,
     pub nodes: Vec<Node>,
 }
 

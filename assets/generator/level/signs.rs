@@ -70,6 +70,7 @@ impl Level {
             sign.kind,
             Vec3::new(0.0, MIDDLE + 0.19, front),
             0.018,
+            0.93 * BOARD.x,
         );
         text(
             &mut mesh,
@@ -77,6 +78,7 @@ impl Level {
             sign.title,
             Vec3::new(0.0, MIDDLE - 0.08, front),
             0.034,
+            0.93 * BOARD.x,
         );
         let turn = match place.heading {
             Heading::North => 0.0f32,
@@ -102,10 +104,10 @@ impl Level {
 }
 
 /// Letters of square dots in the plane that looks along `+Z`, centred on a point.
-fn text(mesh: &mut Mesh, paint: Paint, text: &str, center: Vec3, wanted: f32) {
+pub fn text(mesh: &mut Mesh, paint: Paint, text: &str, center: Vec3, wanted: f32, width: f32) {
     let letters = text.chars().count() as f32;
     // A long line is set smaller, so that it stays on the board.
-    let dot = wanted.min(0.93 * BOARD.x / (6.0 * letters - 1.0));
+    let dot = wanted.min(width / (6.0 * letters - 1.0));
     let left = center.x - 0.5 * dot * (6.0 * letters - 1.0);
     for (i, letter) in text.chars().enumerate() {
         for (row, bits) in font::rows(letter).into_iter().enumerate() {

@@ -24,6 +24,9 @@ pub struct NodeExtras {
     /// Coulomb friction coefficient; where two bodies meet the smaller one holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<f32>,
+    /// Friction for tyres, 1 on dry asphalt; none leaves it at that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub road: Option<f32>,
     /// How a kinematic body moves with time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
@@ -42,13 +45,26 @@ pub struct NodeExtras {
     /// The body turns about a hinge on another node.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hinge: Option<Hinge>,
-    /// The node's pose is where the walker of this station starts, foot first, facing `-Z`.
+    /// The node's pose is where the walker or the vehicle of this station starts, its lowest point
+    /// first, facing `-Z`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub station: Option<String>,
 }
 
 fn is_false(value: &bool) -> bool {
     !value
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_zero(value: &f32) -> bool {
+    *value == 0.0
+}
+
+fn is_origin(point: &[f32; 3]) -> bool {
+    *point == [0.0; 3]
 }
 
 /// The shape of a collider, centred on the node's origin where it is not a mesh.
@@ -118,6 +134,9 @@ pub enum Motion {
         wait_near: f32,
         /// Seconds of rest at the other end.
         wait_far: f32,
+        /// Seconds in which it gets to its speed, and in which it comes to rest.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        ramp: f32,
     },
     /// Round and round.
     Turn {
@@ -142,8 +161,11 @@ pub struct PlanetSpec {
 #[derive(Serialize, Deserialize, Clone, Debug, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
-    /// Name of the node that carries it; the hinge is at that node's origin.
+    /// Name of the node that carries it.
     pub on: String,
+    /// Where the hinge is on that node.
+    #[serde(default, skip_serializing_if = "is_origin")]
+    pub on_anchor: [f32; 3],
     /// Where the hinge is on this node.
     pub anchor: [f32; 3],
     /// Its axis.

@@ -4,6 +4,7 @@
 //! The plaza's top is at `y = 0`; an avenue runs along `z` through its middle. Every station has a
 //! [`Place`]: its own axes, in which the walker starts at the origin and faces `-Z`.
 
+pub mod driving;
 mod features;
 
 use bevy::prelude::*;

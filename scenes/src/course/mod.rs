@@ -96,10 +96,36 @@ impl Course {
         load::from_slice(bytes)
     }
 
-    /// Where the course of this project is: `assets/course.glb` in the working directory, beside
+    /// Where the walking course of this project is: `assets/course.glb` in the working directory, beside
     /// the executable, or in the source tree it was built from, whichever exists first.
     pub fn default_path() -> PathBuf {
-        let file = Path::new("assets").join("course.glb");
+        Self::path("course.glb")
+    }
+
+    /// Where the proving ground is that the driving stations are on; looked for as the course is.
+    pub fn proving_ground_path() -> PathBuf {
+        Self::path("proving_ground.glb")
+    }
+
+    /// Where the looks of the vehicles are; looked for as the course is.
+    pub fn vehicles_path() -> PathBuf {
+        Self::path("vehicles.glb")
+    }
+
+    /// Adds all of another level to this one.
+    pub fn add(&mut self, other: Self) {
+        let first = self.materials.len();
+        self.materials.extend(other.materials);
+        self.nodes.extend(other.nodes.into_iter().map(|mut node| {
+            for surface in &mut node.surfaces {
+                surface.material = surface.material.map(|material| material + first);
+            }
+            node
+        }));
+    }
+
+    fn path(name: &str) -> PathBuf {
+        let file = Path::new("assets").join(name);
         let built_from = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(&file);
         let beside = std::env::current_exe()
             .ok()

@@ -44,15 +44,14 @@ pub fn pose_at(motion: &Motion, base: &Transform, time: f64) -> Transform {
             speed,
             wait_near,
             wait_far,
+            ramp,
         } => {
             let travel = Vec3::from_array(travel);
             let length = f64::from(travel.length());
-            let part = shuttle(
-                time,
-                length / f64::from(speed),
-                f64::from(wait_near),
-                f64::from(wait_far),
-            );
+            // A ramp goes half as far as the speed would in its time.
+            let one_way = length / f64::from(speed) + f64::from(ramp);
+            let way = shuttle(time, one_way, f64::from(wait_near), f64::from(wait_far));
+            let part = eased(way, f64::from(ramp) / one_way);
             base.with_translation(base.translation + travel * part as f32)
         }
         Motion::Turn { axis, rate } => {
@@ -85,6 +84,22 @@ fn shuttle(time: f64, one_way: f64, wait_near: f64, wait_far: f64) -> f64 {
     }
 }
 
+/// The part of the way after a part of the time, when the first and the last `ramp` of the time go
+/// into starting and stopping evenly.
+fn eased(time: f64, ramp: f64) -> f64 {
+    let speed = 1.0 / (1.0 - ramp);
+    if ramp <= 0.0 {
+        time
+    } else if time < ramp {
+        0.5 * speed * time * time / ramp
+    } else if time > 1.0 - ramp {
+        let rest = 1.0 - time;
+        1.0 - 0.5 * speed * rest * rest / ramp
+    } else {
+        speed * (time - 0.5 * ramp)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,6 +111,7 @@ mod tests {
             speed: 1.5,
             wait_near: 1.0,
             wait_far: 0.5,
+            ramp: 0.0,
         };
         let base = Transform::from_xyz(1.0, 2.0, 3.0);
         for (time, height) in [
@@ -114,6 +130,28 @@ mod tests {
                 at.distance(Vec3::new(1.0, 2.0 + height, 3.0)) < 1e-5,
                 "at {time} s: {at}"
             );
+        }
+    }
+
+    #[test]
+    fn a_shuttle_with_ramps_goes_at_its_speed_between_them() {
+        let ferry = Motion::Shuttle {
+            travel: [0.0, 0.0, -18.0],
+            speed: 3.0,
+            wait_near: 0.0,
+            wait_far: 1.0,
+            ramp: 2.0,
+        };
+        let at = |time: f64| -pose_at(&ferry, &Transform::IDENTITY, time).translation.z;
+        // 2 s to 3 m/s are 3 m, 4 s at it are 12 m, 2 s to rest are 3 m.
+        for (time, way) in [
+            (1.0, 0.75),
+            (2.0, 3.0),
+            (4.0, 9.0),
+            (6.0, 15.0),
+            (8.0, 18.0),
+        ] {
+            assert!((at(time) - way).abs() < 1e-4, "at {time} s: {}", at(time));
         }
     }
 

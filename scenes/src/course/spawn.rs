@@ -40,7 +40,7 @@ pub fn spawn_course(commands: &mut Commands, course: &Course) {
             && let Some(&stand) = named.get(hinge.on.as_str())
         {
             let mut joint = RevoluteJointBuilder::new(Vec3::from_array(hinge.axis))
-                .local_anchor1(Vec3::ZERO)
+                .local_anchor1(Vec3::from_array(hinge.on_anchor))
                 .local_anchor2(Vec3::from_array(hinge.anchor))
                 .limits([-hinge.limit, hinge.limit])
                 .build();
@@ -88,6 +88,9 @@ fn add_physics(entity: &mut EntityCommands, node: &Node, collider: Collider) {
             coefficient: friction,
             combine_rule: CoefficientCombineRule::Min,
         });
+    }
+    if let Some(friction) = extras.road {
+        entity.insert(SurfaceFriction::new(friction));
     }
     if let Some(velocity) = extras.conveyor {
         entity.insert(SurfaceVelocity {

@@ -8,8 +8,11 @@ mod clock;
 mod course_view;
 mod demo;
 pub mod figure;
+mod garage;
 pub mod input;
 mod light;
+mod looks;
+mod models;
 mod overlay;
 mod player;
 mod screenshot;
@@ -18,9 +21,13 @@ mod visit;
 mod window;
 
 use bevy::{diagnostic::FrameTimeDiagnosticsPlugin, prelude::*};
-use bevy_embody::{EmbodyDebugPlugin, EmbodyDiagnosticsPlugin, EmbodyInspectorPlugin};
+use bevy_embody::{
+    EmbodyDebugPlugin, EmbodyDiagnosticsPlugin, EmbodyInspectorPlugin, VehicleDebugPlugin,
+};
 
 pub use demo::demo_plugins;
+pub use garage::Garage;
+pub use models::{ModelOf, Models};
 pub use overlay::{Hud, HudPart};
 pub use player::{Player, player};
 pub use screenshot::{Shot, ShotPlugin};
@@ -30,7 +37,7 @@ pub use window::{has_display, window_plugins};
 
 use crate::course::CoursePlugin;
 
-/// Cameras, input, clock keys, overlays, gizmos and panel for one [`Player`].
+/// Cameras, input, clock keys, overlays, gizmos and panel for one [`Player`], on foot or driving.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ShellPlugin;
 
@@ -40,6 +47,7 @@ impl Plugin for ShellPlugin {
             FrameTimeDiagnosticsPlugin::default(),
             EmbodyDiagnosticsPlugin,
             EmbodyDebugPlugin,
+            VehicleDebugPlugin,
             EmbodyInspectorPlugin,
         ))
         .add_plugins((
@@ -63,6 +71,8 @@ impl Plugin for CourseShellPlugin {
         app.add_plugins((
             CoursePlugin,
             course_view::CourseViewPlugin,
+            models::ModelsPlugin,
+            garage::GaragePlugin,
             visit::VisitPlugin,
         ));
     }

@@ -1,13 +1,13 @@
-//! The character that keyboard, mouse and camera belong to.
+//! Who keyboard, mouse and camera belong to.
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
 
 use super::{camera::ViewEase, figure::FigureOf, input::Controls};
 
-/// The character that keyboard, mouse and camera belong to.
+/// The character or the vehicle that keyboard, mouse and camera belong to.
 #[derive(Component, Clone, Copy, Debug, Default)]
-#[require(Controls, ViewEase, FigureOf)]
+#[require(Controls)]
 pub struct Player;
 
 /// A character that the player steers, with its foot at this pose.
@@ -15,6 +15,8 @@ pub fn player(start: Transform) -> impl Bundle {
     (
         Name::new("player"),
         Player,
+        ViewEase::default(),
+        FigureOf::default(),
         Character::default(),
         player_motor(&CharacterMotor::default()),
         start,

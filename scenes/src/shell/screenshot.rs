@@ -49,6 +49,8 @@ fn aim(shot: Res<Shot>, mut rigs: Query<(&mut CameraRig, &mut Transform)>) {
     for (mut rig, mut transform) in &mut rigs {
         if let Some(view) = shot.view {
             rig.yaw += view.x;
+            // Nothing swings it back behind a vehicle.
+            rig.idle = f32::NEG_INFINITY;
             rig.pitch = view.y;
             rig.distance = view.z;
         }

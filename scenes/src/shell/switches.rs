@@ -2,14 +2,14 @@
 
 use bevy::{input::common_conditions::input_just_pressed, prelude::*};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, input::egui_wants_any_keyboard_input};
-use bevy_embody::debug::{CharacterGizmos, InspectorPanel};
+use bevy_embody::debug::{CharacterGizmos, InspectorPanel, VehicleGizmos};
 
 use super::overlay::Plate;
 
 /// What is shown from the start.
 #[derive(Resource, Clone, Copy, Debug)]
 pub struct Switches {
-    /// Whether the character gizmos are drawn.
+    /// Whether the gizmos are drawn.
     pub gizmos: bool,
     /// Whether the tuning panel is open.
     pub panel: bool,
@@ -60,13 +60,18 @@ fn set(
     for mut visibility in plates.iter_mut().filter(|_| !switches.display) {
         *visibility = Visibility::Hidden;
     }
-    store.config_mut::<CharacterGizmos>().0.enabled = switches.gizmos;
+    show_gizmos(&mut store, switches.gizmos);
     panel.open = switches.panel;
 }
 
 fn gizmos(mut store: ResMut<GizmoConfigStore>) {
-    let (config, _) = store.config_mut::<CharacterGizmos>();
-    config.enabled = !config.enabled;
+    let shown = store.config::<CharacterGizmos>().0.enabled;
+    show_gizmos(&mut store, !shown);
+}
+
+fn show_gizmos(store: &mut GizmoConfigStore, shown: bool) {
+    store.config_mut::<CharacterGizmos>().0.enabled = shown;
+    store.config_mut::<VehicleGizmos>().0.enabled = shown;
 }
 
 fn panel(mut panel: ResMut<InspectorPanel>) {

@@ -5,13 +5,15 @@ use bevy_egui::input::egui_wants_any_keyboard_input;
 use bevy_embody::prelude::*;
 
 use super::{
-    Player,
+    Garage, Player,
     camera::CameraRig,
+    garage,
     overlay::Hud,
     player::{player, player_motor},
 };
 use crate::{
     course::{Course, CourseNode, despawn_course, spawn_course},
+    driving::{DriveRun, drive_stations},
     stations::{StationResult, StationRun, stations},
 };
 
@@ -23,7 +25,9 @@ const ABYSS: f32 = -40.0;
 pub struct Start {
     /// Name of the station, or a part of it; none starts at the first.
     pub station: Option<String>,
-    /// Whether the station's scripted walker starts at once.
+    /// Name of the vehicle to drive, or a part of it.
+    pub vehicle: Option<String>,
+    /// Whether the station's scripted walker or driver starts at once.
     pub play: bool,
 }
 
@@ -43,8 +47,10 @@ pub struct Stop {
     pub name: String,
     /// What it shows.
     pub describe: String,
-    /// Pose of the foot, facing `-Z`.
+    /// Pose of the foot, or of the ground below the vehicle, facing `-Z`.
     pub start: Transform,
+    /// Whether one drives there.
+    pub drive: bool,
 }
 
 impl Default for Visit {
@@ -55,7 +61,14 @@ impl Default for Visit {
                 name: station.name,
                 describe: station.describe,
                 start: station.start,
+                drive: false,
             })
+            .chain(drive_stations().into_iter().map(|station| Stop {
+                start: station.start(),
+                name: station.name,
+                describe: station.describe,
+                drive: true,
+            }))
             .collect();
         Self { stops, current: 0 }
     }
@@ -73,11 +86,36 @@ impl Visit {
     }
 }
 
-/// A scripted walk that the player's character does by itself.
+/// A script that the player's character or vehicle does by itself.
 #[derive(Resource)]
-pub(super) struct Playing {
-    run: StationRun,
-    before: (Character, CharacterMotor),
+pub(super) enum Playing {
+    /// A walk, and what the walker was before.
+    Walk(StationRun, Box<(Character, CharacterMotor)>),
+    /// A drive.
+    Drive(DriveRun),
+}
+
+impl Playing {
+    fn tick(&mut self, world: &mut World) -> bool {
+        match self {
+            Self::Walk(run, _) => run.tick(world),
+            Self::Drive(run) => run.tick(world),
+        }
+    }
+
+    fn current(&self) -> Option<String> {
+        match self {
+            Self::Walk(run, _) => run.current().map(|step| step.describe()),
+            Self::Drive(run) => run.current().map(|step| step.describe()),
+        }
+    }
+
+    fn result(&self) -> StationResult {
+        match self {
+            Self::Walk(run, _) => run.result(),
+            Self::Drive(run) => run.result(),
+        }
+    }
 }
 
 /// Spawns the course and the player. Number keys and `PageUp`/`PageDown` go to a station, `R` back
@@ -124,16 +162,31 @@ fn face_start(visit: Res<Visit>, mut rigs: Query<&mut CameraRig>) {
     }
 }
 
-fn begin(mut commands: Commands, course: Res<Course>, start: Res<Start>, mut visit: ResMut<Visit>) {
+fn begin(
+    mut commands: Commands,
+    course: Res<Course>,
+    start: Res<Start>,
+    mut garage: ResMut<Garage>,
+    mut visit: ResMut<Visit>,
+) {
     spawn_course(&mut commands, &course);
+    if let Some(name) = &start.vehicle {
+        garage.choose(name);
+    }
     if let Some(name) = &start.station {
         match visit.find(name) {
             Some(found) => visit.current = found,
             None => warn!("there is no station {name}; starting at the first"),
         }
     }
-    let at = visit.stop().map_or(Transform::IDENTITY, |stop| stop.start);
-    commands.spawn(player(at));
+    let (at, drive) = visit.stop().map_or((Transform::IDENTITY, false), |stop| {
+        (stop.start, stop.drive)
+    });
+    if drive {
+        commands.queue(move |world: &mut World| garage::drive(world, at));
+    } else {
+        commands.spawn(player(at));
+    }
 }
 
 /// Which key means which of ten stations.
@@ -164,43 +217,42 @@ fn asked(keys: &ButtonInput<KeyCode>, current: usize, count: usize) -> Option<us
     if keys.just_pressed(KeyCode::KeyR) {
         return Some(current);
     }
-    // With Shift the second ten, with Alt the third.
-    let tens = if keys.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]) {
-        10
-    } else if keys.any_pressed([KeyCode::AltLeft, KeyCode::AltRight]) {
-        20
-    } else {
-        0
-    };
+    // With Shift the second ten, with Alt the third, with both the fourth.
+    let shift = keys.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]);
+    let alt = keys.any_pressed([KeyCode::AltLeft, KeyCode::AltRight]);
+    let tens = 10 * usize::from(shift) + 20 * usize::from(alt);
     let digit = DIGITS.iter().position(|key| keys.just_pressed(*key))?;
     Some(tens + digit).filter(|station| *station < count)
 }
 
-fn choose(
-    keys: Res<ButtonInput<KeyCode>>,
-    mut visit: ResMut<Visit>,
-    mut commands: Commands,
-    playing: Option<Res<Playing>>,
-    mut players: Query<(Entity, &mut Transform, &mut CharacterState), With<Player>>,
-    mut rigs: Query<&mut CameraRig>,
-) {
-    let Some(next) = asked(&keys, visit.current, visit.stops.len()) else {
-        return;
-    };
-    visit.current = next;
-    let Some(stop) = visit.stop() else {
-        return;
-    };
-    for (entity, mut transform, mut state) in &mut players {
-        if let Some(playing) = &playing {
-            commands.entity(entity).insert(playing.before.clone());
-            commands.remove_resource::<Playing>();
-        }
-        *transform = stop.start;
-        *state = CharacterState::default();
+fn choose(world: &mut World) {
+    let visit = world.resource::<Visit>();
+    let keys = world.resource::<ButtonInput<KeyCode>>();
+    if let Some(next) = asked(keys, visit.current, visit.stops.len()) {
+        go(world, next);
     }
-    for mut rig in &mut rigs {
-        rig.reset_to(&stop.start);
+}
+
+/// Puts the player at a stop, on foot or at the wheel.
+fn go(world: &mut World, next: usize) {
+    stop_playing(world);
+    let mut visit = world.resource_mut::<Visit>();
+    visit.current = next;
+    let Some(stop) = visit.stop().cloned() else {
+        return;
+    };
+    if stop.drive {
+        garage::drive(world, stop.start);
+    } else {
+        garage::stand(world, stop.start);
+    }
+    look_from(world, &stop.start);
+}
+
+fn look_from(world: &mut World, start: &Transform) {
+    let mut rigs = world.query::<&mut CameraRig>();
+    for mut rig in rigs.iter_mut(world) {
+        rig.reset_to(start);
     }
 }
 
@@ -218,56 +270,84 @@ fn reset_course(
 
 fn catch_falling(
     visit: Res<Visit>,
-    mut players: Query<(&mut Transform, &mut CharacterState), With<Player>>,
+    mut commands: Commands,
+    players: Query<&Transform, With<Player>>,
 ) {
-    for (mut transform, mut state) in &mut players {
-        if transform.translation.y < ABYSS
-            && let Some(stop) = visit.stop()
-        {
-            *transform = stop.start;
-            *state = CharacterState::default();
-        }
+    if players.iter().any(|at| at.translation.y < ABYSS) {
+        let current = visit.current;
+        commands.queue(move |world: &mut World| go(world, current));
     }
 }
 
-/// Starts the script of the current station with the player as its walker, or stops it.
-fn play(world: &mut World) {
-    if let Some(playing) = world.remove_resource::<Playing>() {
-        if let Ok(mut walker) = world.get_entity_mut(playing.run.walker()) {
-            walker.insert(playing.before);
+/// Stops the script, if one is playing, and gives the controls back.
+pub(super) fn stop_playing(world: &mut World) -> bool {
+    match world.remove_resource::<Playing>() {
+        Some(Playing::Walk(run, before)) => {
+            if let Ok(mut walker) = world.get_entity_mut(run.walker()) {
+                walker.insert(*before);
+            }
+            true
         }
+        Some(Playing::Drive(_)) => true,
+        None => false,
+    }
+}
+
+/// Starts the script of the current station with the player, or stops it.
+fn play(world: &mut World) {
+    if stop_playing(world) {
         return;
     }
     let current = world.resource::<Visit>().current;
-    let Some(station) = stations().into_iter().nth(current) else {
-        return;
+    let walks = stations().len();
+    let playing = if current < walks {
+        play_walk(world, current)
+    } else {
+        play_drive(world, current - walks)
     };
+    if let Some(playing) = playing {
+        world.insert_resource(playing);
+    }
+}
+
+fn play_walk(world: &mut World, place: usize) -> Option<Playing> {
+    let station = stations().into_iter().nth(place)?;
+    garage::stand(world, station.start);
     let mut players = world.query_filtered::<(Entity, &Character, &CharacterMotor), With<Player>>();
-    let Ok((walker, character, motor)) = players.single(world) else {
-        return;
-    };
-    let before = (character.clone(), motor.clone());
+    let (walker, character, motor) = players.single(world).ok()?;
+    let before = Box::new((character.clone(), motor.clone()));
     let (start, motor) = (station.start, player_motor(&station.motor));
     let run = StationRun::with(world, station, walker);
     world.entity_mut(walker).insert(motor);
-    let mut rigs = world.query::<&mut CameraRig>();
-    for mut rig in rigs.iter_mut(world) {
-        rig.reset_to(&start);
+    look_from(world, &start);
+    Some(Playing::Walk(run, before))
+}
+
+fn play_drive(world: &mut World, place: usize) -> Option<Playing> {
+    let station = drive_stations().into_iter().nth(place)?;
+    let figures = world.resource::<Garage>().figures();
+    if let Err(why) = station.plan(&figures) {
+        world.resource_mut::<Hud>().detail = format!("not for the {}: {why}", figures.name);
+        return None;
     }
-    world.insert_resource(Playing { run, before });
+    let start = station.start();
+    garage::drive(world, start);
+    let (vehicle, _) = garage::driver(world)?;
+    let run = DriveRun::with(world, station, figures, vehicle)?;
+    look_from(world, &start);
+    Some(Playing::Drive(run))
 }
 
 /// Plays one tick; at the end tells what came of it and gives the keys back.
 fn advance(world: &mut World) {
     let done = world.resource_scope(|world, mut playing: Mut<Playing>| {
-        let done = playing.run.tick(world);
+        let done = playing.tick(world);
         let text = if done {
-            verdict(&playing.run.result())
+            verdict(&playing.result())
         } else {
             playing
-                .run
                 .current()
-                .map_or_else(String::new, |step| format!("plays: {}", step.describe()))
+                .map_or_else(String::new, |step| format!("plays: {step}"))
         };
         let mut hud = world.resource_mut::<Hud>();
         if hud.detail != text {
@@ -276,8 +356,13 @@ fn advance(world: &mut World) {
         done
     });
     if done {
-        play(world);
+        stop_playing(world);
     }
+}
+
+/// Writes which vehicle is driven, behind the place.
+pub(super) fn announce_vehicle(world: &mut World) {
+    world.resource_mut::<Visit>().set_changed();
 }
 
 fn verdict(result: &StationResult) -> String {
@@ -293,9 +378,19 @@ fn verdict(result: &StationResult) -> String {
     text
 }
 
-fn announce(visit: Res<Visit>, mut hud: ResMut<Hud>) {
+fn announce(
+    visit: Res<Visit>,
+    garage: Res<Garage>,
+    driving: Query<(), (With<Player>, With<Vehicle>)>,
+    mut hud: ResMut<Hud>,
+) {
     if let Some(stop) = visit.stop() {
         hud.title = format!("{}/{}  {}", visit.current + 1, visit.stops.len(), stop.name);
+        if stop.drive || !driving.is_empty() {
+            let help = if garage.assists { "" } else { ", no helpers" };
+            hud.title
+                .push_str(&format!("  ({}{help})", garage.figures().name));
+        }
         hud.detail.clone_from(&stop.describe);
     }
 }

@@ -1,14 +1,14 @@
-//! What is asked of a walker, and whether it happened.
+//! What is asked of a walker or a driver, and whether it happened.
 
 use core::fmt;
 
 use super::trace::Trace;
 
-/// Something asked of a station's walker.
-pub struct Check {
+/// Something asked of who is at a station; `T` is the trace by which it is judged.
+pub struct Check<T = Trace> {
     /// What is asked, for a reader.
     pub asked: String,
-    judge: Box<dyn Fn(&Trace) -> Verdict + Send + Sync>,
+    judge: Box<dyn Fn(&T) -> Verdict + Send + Sync>,
 }
 
 /// What came of a check.
@@ -45,11 +45,11 @@ impl Verdict {
     }
 }
 
-impl Check {
-    /// Asks something; `judge` looks at what the walker did.
+impl<T> Check<T> {
+    /// Asks something; `judge` looks at what was done.
     pub fn new(
         asked: impl Into<String>,
-        judge: impl Fn(&Trace) -> Verdict + Send + Sync + 'static,
+        judge: impl Fn(&T) -> Verdict + Send + Sync + 'static,
     ) -> Self {
         Self {
             asked: asked.into(),
@@ -58,12 +58,12 @@ impl Check {
     }
 
     /// Judges.
-    pub fn judge(&self, trace: &Trace) -> Verdict {
+    pub fn judge(&self, trace: &T) -> Verdict {
         (self.judge)(trace)
     }
 }
 
-impl fmt::Debug for Check {
+impl<T> fmt::Debug for Check<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Check")
             .field("asked", &self.asked)

@@ -52,17 +52,26 @@ pub fn run_headless_with(course: &Course, filter: Option<&str>, hz: f64) -> Vec<
         .collect()
 }
 
-/// What was asked and what happened, one line per check; the last line is `N passed, N failed`.
+/// What was asked and what happened, one line per check, and why nothing was asked where nothing
+/// was; the last line is `N passed, N failed`.
 pub fn table(results: &[StationResult]) -> String {
-    let name = results.iter().map(|r| r.name.len()).max().unwrap_or(0);
+    let wide = |text: &str| text.chars().count();
+    let name = results.iter().map(|r| wide(&r.name)).max().unwrap_or(0);
     let asked = results
         .iter()
         .flat_map(|r| &r.checks)
-        .map(|check| check.asked.len())
+        .map(|check| wide(&check.asked))
         .max()
         .unwrap_or(0);
     let mut text = String::new();
     for result in results {
+        if let Some(why) = &result.exempt {
+            let _ = writeln!(
+                text,
+                "{:name$}  --    {:asked$}  {why}",
+                result.name, "not asked"
+            );
+        }
         for (i, check) in result.checks.iter().enumerate() {
             let mark = if check.pass { "ok  " } else { "FAIL" };
             let label = if i == 0 { result.name.as_str() } else { "" };
@@ -74,8 +83,17 @@ pub fn table(results: &[StationResult]) -> String {
             );
         }
     }
-    let passed = results.iter().filter(|result| result.passed()).count();
-    let _ = writeln!(text, "{passed} passed, {} failed", results.len() - passed);
+    let count = |what: fn(&StationResult) -> bool| results.iter().filter(|r| what(r)).count();
+    let exempt = count(|result| result.exempt.is_some());
+    if exempt > 0 {
+        let _ = writeln!(text, "{exempt} not asked, for the reasons above");
+    }
+    let _ = writeln!(
+        text,
+        "{} passed, {} failed",
+        count(StationResult::passed),
+        count(StationResult::failed)
+    );
     text
 }
 

@@ -13,7 +13,7 @@ use bevy_egui::egui::{self, Ui};
 
 use super::{
     edits::TuningEdits,
-    units::{is_angle, may_be_negative, unit},
+    units::{is_angle, may_be_negative},
     variants,
 };
 
@@ -23,6 +23,8 @@ pub(super) struct Form<'a> {
     edits: &'a mut TuningEdits,
     entity: Entity,
     component: TypeId,
+    /// The unit of a field by its name.
+    unit: fn(&str) -> &'static str,
 }
 
 impl<'a> Form<'a> {
@@ -30,12 +32,14 @@ impl<'a> Form<'a> {
         registry: &'a TypeRegistry,
         edits: &'a mut TuningEdits,
         entity: Entity,
+        unit: fn(&str) -> &'static str,
     ) -> Self {
         Self {
             registry,
             edits,
             entity,
             component: TypeId::of::<()>(),
+            unit,
         }
     }
 
@@ -86,6 +90,16 @@ impl<'a> Form<'a> {
                     self.set(path, new);
                 }
             });
+        } else if let Some(&pair) = value.try_downcast_ref::<Vec2>() {
+            ui.horizontal(|ui| {
+                let mut new = pair;
+                for axis in [&mut new.x, &mut new.y] {
+                    ui.add(egui::DragValue::new(axis).speed(0.01).max_decimals(3));
+                }
+                if new != pair {
+                    self.set(path, new);
+                }
+            });
         } else {
             match value.reflect_ref() {
                 ReflectRef::Enum(value) => self.choice(ui, name, value, path),
@@ -133,7 +147,7 @@ impl<'a> Form<'a> {
             let mut drag = egui::DragValue::new(&mut new)
                 .speed(speed)
                 .max_decimals(3)
-                .suffix(unit(name));
+                .suffix((self.unit)(name));
             if !may_be_negative(name) {
                 drag = drag
                     .range(0.0..=f32::INFINITY)
@@ -262,7 +276,7 @@ mod tests {
         registry.register::<CharacterMotor>();
         let context = egui::Context::default();
         let mut output = context.run_ui(egui::RawInput::default(), |ui| {
-            let mut form = Form::new(&registry, edits, Entity::PLACEHOLDER);
+            let mut form = Form::new(&registry, edits, Entity::PLACEHOLDER, |_| "");
             form.component(ui, character);
             form.component(ui, motor);
         });

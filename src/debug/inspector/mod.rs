@@ -1,4 +1,4 @@
-//! A panel that shows a character live and tunes it.
+//! A panel that shows a character or a vehicle live and tunes it.
 
 mod edits;
 mod fields;
@@ -8,6 +8,8 @@ mod plots;
 mod record;
 mod units;
 mod variants;
+#[cfg(feature = "vehicle")]
+mod vehicle;
 
 use bevy::prelude::*;
 use bevy_egui::{EguiPlugin, EguiPrimaryContextPass};
@@ -17,7 +19,8 @@ pub use edits::TuningEdits;
 use crate::character::{Character, CharacterMotor};
 
 /// The tuning panel: every field of [`Character`] and [`CharacterMotor`] live, plots of speed and
-/// ground state, the last step with its reason, refusals and contacts.
+/// ground state, the last step with its reason, refusals and contacts; every field of a vehicle and
+/// its wheels live, plots of speed, engine, gear, wheel loads, slips and the g-g diagram.
 ///
 /// It is drawn by `bevy_egui`, which is added if it is not there. Open and close it through
 /// [`InspectorPanel`]; keep the game's own input away from it with `bevy_egui`'s run conditions
@@ -34,13 +37,15 @@ impl Plugin for EmbodyInspectorPlugin {
             .register_type::<CharacterMotor>()
             .init_resource::<InspectorPanel>()
             .init_resource::<TuningEdits>()
-            .init_resource::<record::Record>()
+            .init_resource::<record::Record<record::Sample>>()
             .add_systems(FixedPreUpdate, edits::apply_edits)
             .add_systems(FixedLast, record::record)
             .add_systems(
                 EguiPrimaryContextPass,
                 panel::show.run_if(|panel: Res<InspectorPanel>| panel.open),
             );
+        #[cfg(feature = "vehicle")]
+        vehicle::add(app);
     }
 }
 
@@ -51,6 +56,8 @@ pub struct InspectorPanel {
     pub open: bool,
     /// The character to show; `None` shows the one with the lowest entity index.
     pub character: Option<Entity>,
+    /// The vehicle to show; `None` shows the one with the lowest entity index.
+    pub vehicle: Option<Entity>,
     /// How far back the plots reach, seconds.
     pub seconds: f64,
 }
@@ -60,17 +67,19 @@ impl Default for InspectorPanel {
         Self {
             open: true,
             character: None,
+            vehicle: None,
             seconds: 10.0,
         }
     }
 }
 
-impl InspectorPanel {
-    /// The character to show out of all there are.
-    fn pick<D>(&self, mut all: impl Iterator<Item = (Entity, D)>) -> Option<(Entity, D)> {
-        match self.character {
-            Some(chosen) => all.find(|(entity, _)| *entity == chosen),
-            None => all.min_by_key(|(entity, _)| *entity),
-        }
+/// The chosen one out of all there are, else the one with the lowest entity index.
+fn pick<D>(
+    chosen: Option<Entity>,
+    mut all: impl Iterator<Item = (Entity, D)>,
+) -> Option<(Entity, D)> {
+    match chosen {
+        Some(chosen) => all.find(|(entity, _)| *entity == chosen),
+        None => all.min_by_key(|(entity, _)| *entity),
     }
 }

@@ -1,4 +1,4 @@
-//! The window of the panel.
+//! The window of the characters.
 
 use bevy::{ecs::query::QueryData, prelude::*};
 use bevy_egui::{
@@ -6,7 +6,14 @@ use bevy_egui::{
     egui::{self, CollapsingHeader, ScrollArea},
 };
 
-use super::{InspectorPanel, edits::TuningEdits, fields::Form, findings, plots, record::Record};
+use super::{
+    InspectorPanel,
+    edits::TuningEdits,
+    fields::Form,
+    findings, pick, plots,
+    record::{Record, Sample},
+    units::unit,
+};
 use crate::character::{Character, CharacterContacts, CharacterMotor, CharacterState, StepAttempt};
 #[cfg(feature = "debug")]
 use crate::debug::StepTrail;
@@ -27,9 +34,10 @@ pub(super) fn show(
     mut panel: ResMut<InspectorPanel>,
     mut edits: ResMut<TuningEdits>,
     registry: Res<AppTypeRegistry>,
-    record: Res<Record>,
+    record: Res<Record<Sample>>,
     time: Res<Time<Fixed>>,
     characters: Query<(Entity, Shown)>,
+    #[cfg(feature = "vehicle")] vehicles: Query<(), With<crate::vehicle::Vehicle>>,
     names: Query<&Name>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
@@ -38,6 +46,11 @@ pub(super) fn show(
             .get(entity)
             .map_or_else(|_| entity.to_string(), ToString::to_string)
     };
+    // Who drives looks at the window of the vehicle.
+    #[cfg(feature = "vehicle")]
+    if characters.is_empty() && !vehicles.is_empty() {
+        return Ok(());
+    }
     let mut open = panel.open;
     egui::Window::new("Character")
         .id(egui::Id::new("embody character"))
@@ -49,9 +62,9 @@ pub(super) fn show(
             let mut all: Vec<Entity> = characters.iter().map(|(entity, _)| entity).collect();
             all.sort_unstable();
             if all.len() > 1 {
-                choose(ui, &mut panel, &all, name);
+                choose(ui, &mut panel.character, &all, name);
             }
-            let Some((entity, shown)) = panel.pick(characters.iter()) else {
+            let Some((entity, shown)) = pick(panel.character, characters.iter()) else {
                 ui.weak("there is no character");
                 return;
             };
@@ -64,7 +77,7 @@ pub(super) fn show(
                         findings::show(ui, shown.state, shown.contacts, step, name);
                     });
                 let registry = registry.read();
-                let mut form = Form::new(&registry, &mut edits, entity);
+                let mut form = Form::new(&registry, &mut edits, entity, unit);
                 CollapsingHeader::new("Character")
                     .default_open(true)
                     .show(ui, |ui| form.component(ui, shown.character));
@@ -79,13 +92,14 @@ pub(super) fn show(
     Ok(())
 }
 
-fn choose(
+/// A list to choose from.
+pub(super) fn choose(
     ui: &mut egui::Ui,
-    panel: &mut InspectorPanel,
+    chosen: &mut Option<Entity>,
     all: &[Entity],
     name: impl Fn(Entity) -> String,
 ) {
-    let shown = panel.character.or(all.first().copied());
+    let shown = chosen.or(all.first().copied());
     egui::ComboBox::from_id_salt("choice")
         .selected_text(shown.map(&name).unwrap_or_default())
         .show_ui(ui, |ui| {
@@ -94,7 +108,7 @@ fn choose(
                     .selectable_label(shown == Some(entity), name(entity))
                     .clicked()
                 {
-                    panel.character = Some(entity);
+                    *chosen = Some(entity);
                 }
             }
         });

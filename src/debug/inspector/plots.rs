@@ -3,7 +3,7 @@
 use bevy_egui::egui::{Color32, Rangef, Ui};
 use egui_plot::{AxisHints, Corner, Legend, Line, Plot, PlotPoints};
 
-use super::record::Record;
+use super::record::{Record, Sample};
 use crate::{character::GroundState, debug::explain::Explain};
 
 const STATES: [GroundState; 4] = [
@@ -14,20 +14,13 @@ const STATES: [GroundState; 4] = [
 ];
 
 /// Draws speed and ground state against seconds before now.
-pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
-    let Some(now) = record.samples.back().map(|last| last.time) else {
+pub(super) fn show(ui: &mut Ui, record: &Record<Sample>, seconds: f64) {
+    if record.samples.is_empty() {
         ui.weak("nothing recorded yet");
         return;
-    };
-    let curve = |value: &dyn Fn(&super::record::Sample) -> f64| -> Vec<[f64; 2]> {
-        record
-            .samples
-            .iter()
-            .map(|sample| [sample.time - now, value(sample)])
-            .collect()
-    };
-    let level = curve(&|sample| sample.level.into());
-    let rise = curve(&|sample| sample.rise.into());
+    }
+    let level = record.curve(|sample| sample.level.into());
+    let rise = record.curve(|sample| sample.rise.into());
     base("speed", seconds)
         .height(100.0)
         .custom_y_axes(vec![labels()])
@@ -45,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
             );
         });
 
-    let states = steps(&curve(&|sample| level_of(sample.ground)));
+    let states = steps(&record.curve(|sample| level_of(sample.ground)));
     base("ground", seconds)
         .height(80.0)
         .include_y(-0.3)
@@ -73,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, record: &Record, seconds: f64) {
         });
 }
 
-fn base(name: &'static str, seconds: f64) -> Plot<'static> {
+pub(super) fn base(name: &'static str, seconds: f64) -> Plot<'static> {
     Plot::new(name)
         .include_x(-seconds)
         .include_x(0.0)
@@ -84,7 +77,7 @@ fn base(name: &'static str, seconds: f64) -> Plot<'static> {
 }
 
 /// A vertical axis whose labels do not fade where its lines are near each other.
-fn labels() -> AxisHints<'static> {
+pub(super) fn labels() -> AxisHints<'static> {
     AxisHints::new_y()
         .label_spacing(Rangef::new(8.0, 14.0))
         .min_thickness(70.0)
@@ -100,7 +93,7 @@ fn level_of(state: GroundState) -> f64 {
 }
 
 /// A curve that holds each value until the next, without slopes between them.
-fn steps(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn steps(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut held = Vec::with_capacity(points.len() * 2);
     let mut last: Option<f64> = None;
     for &[x, y] in points {

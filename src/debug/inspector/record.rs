@@ -1,10 +1,10 @@
-//! The last seconds of a character, tick by tick.
+//! The last seconds of what the panel shows, tick by tick.
 
 use std::collections::VecDeque;
 
 use bevy::prelude::*;
 
-use super::InspectorPanel;
+use super::{InspectorPanel, pick};
 use crate::character::{Character, CharacterState, GroundState};
 
 /// What is plotted of one tick.
@@ -20,21 +20,40 @@ pub(super) struct Sample {
     pub(super) ground: GroundState,
 }
 
-/// The samples of the character that the panel shows, oldest first.
-#[derive(Resource, Debug, Default)]
-pub(super) struct Record {
-    of: Option<Entity>,
-    pub(super) samples: VecDeque<Sample>,
+/// Something that was noted at a time.
+pub(super) trait Timed {
+    /// Fixed time, seconds.
+    fn time(&self) -> f64;
 }
 
-impl Record {
-    fn add(&mut self, of: Entity, sample: Sample, kept: f64) {
+impl Timed for Sample {
+    fn time(&self) -> f64 {
+        self.time
+    }
+}
+
+/// The samples of the one that the panel shows, oldest first.
+#[derive(Resource, Debug)]
+pub(super) struct Record<S: Send + Sync + 'static> {
+    of: Option<Entity>,
+    pub(super) samples: VecDeque<S>,
+}
+
+impl<S: Send + Sync + 'static> Default for Record<S> {
+    fn default() -> Self {
+        Self {
+            of: None,
+            samples: VecDeque::new(),
+        }
+    }
+}
+
+impl<S: Timed + Send + Sync> Record<S> {
+    pub(super) fn add(&mut self, of: Entity, sample: S, kept: f64) {
+        let now = sample.time();
         // A clock that went back means another run.
-        let runs_on = self.of == Some(of)
-            && self
-                .samples
-                .back()
-                .is_none_or(|last| last.time <= sample.time);
+        let runs_on =
+            self.of == Some(of) && self.samples.back().is_none_or(|last| last.time() <= now);
         if !runs_on {
             self.samples.clear();
             self.of = Some(of);
@@ -43,20 +62,29 @@ impl Record {
         while self
             .samples
             .front()
-            .is_some_and(|first| sample.time - first.time > kept)
+            .is_some_and(|first| now - first.time() > kept)
         {
             self.samples.pop_front();
         }
+    }
+
+    /// A quantity against seconds before now.
+    pub(super) fn curve(&self, value: impl Fn(&S) -> f64) -> Vec<[f64; 2]> {
+        let now = self.samples.back().map_or(0.0, Timed::time);
+        self.samples
+            .iter()
+            .map(|sample| [sample.time() - now, value(sample)])
+            .collect()
     }
 }
 
 pub(super) fn record(
     time: Res<Time<Fixed>>,
     panel: Res<InspectorPanel>,
-    mut record: ResMut<Record>,
+    mut record: ResMut<Record<Sample>>,
     characters: Query<(Entity, &CharacterState), With<Character>>,
 ) {
-    let Some((entity, state)) = panel.pick(characters.iter()) else {
+    let Some((entity, state)) = pick(panel.character, characters.iter()) else {
         return;
     };
     let rise = state.velocity.dot(state.up);
@@ -87,7 +115,7 @@ mod tests {
 
     #[test]
     fn only_the_last_seconds_are_kept() {
-        let mut record = Record::default();
+        let mut record = Record::<Sample>::default();
         for tick in 0..1000 {
             record.add(Entity::PLACEHOLDER, sample(f64::from(tick) / 100.0), 2.0);
         }

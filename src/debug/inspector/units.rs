@@ -15,14 +15,39 @@ pub(super) fn unit(name: &str) -> &'static str {
     }
 }
 
+/// As [`unit`], for the fields of vehicles and wheels.
+#[cfg(feature = "vehicle")]
+pub(super) fn vehicle_unit(name: &str) -> &'static str {
+    match name.rsplit('_').next().unwrap_or(name) {
+        "speed" => " m/s",
+        "radius" | "width" | "travel" | "length" => " m",
+        "torque" | "recuperation" => " N m",
+        "preload" | "load" | "force" => " N",
+        "mass" => " kg",
+        "inertia" => " kg m²",
+        "time" => " s",
+        "rate" => " rad/s",
+        "rpm" | "idle" | "redline" | "up" | "down" => " rpm",
+        "power" => " W",
+        "area" => " m²",
+        "frequency" => " Hz",
+        _ => "",
+    }
+}
+
 /// Whether a field of this name is an angle in radians, better shown in degrees.
 pub(super) fn is_angle(name: &str) -> bool {
-    matches!(name.rsplit('_').next(), Some("slope" | "angle"))
+    matches!(
+        name.rsplit('_').next(),
+        Some("slope" | "angle" | "camber" | "toe" | "offset" | "lean")
+    )
 }
 
 /// Whether a field of this name may be negative.
 pub(super) fn may_be_negative(name: &str) -> bool {
-    name.ends_with("scale") || name.len() == 1
+    name.ends_with("scale")
+        || name.len() == 1
+        || matches!(name, "ackermann" | "camber" | "toe" | "offset")
 }
 
 #[cfg(test)]

@@ -81,7 +81,8 @@ impl VehiclePreset {
         let mut tire = road_tire(1400.0, 1.2);
         tire.along = TireModel::Brush { stiffness: 30.0e3 };
         tire.across = TireModel::Brush { stiffness: 22.0e3 };
-        tire.camber_stiffness = 0.9;
+        // Lean alone carries about its tangent in g, as round tyres do.
+        tire.camber_stiffness = 0.06;
         tire.relaxation_length = Vec2::new(0.1, 0.2);
         let mut base = wheel(0.31, 0.14, 0.5, tire, 2.0, 0.14);
         base.suspension.unsprung_mass = 14.0;

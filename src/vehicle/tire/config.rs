@@ -27,8 +27,8 @@ pub struct Tire {
     pub relaxation_length: Vec2,
     /// Rolling resistance in parts of the load, dimensionless, at least 0; 0.01 on asphalt, 0.3 in sand.
     pub rolling_resistance: f32,
-    /// Slip that a camber of one radian adds, dimensionless; 0 leaves camber thrust out. Car tyres
-    /// have about 0.1, motorcycle tyres about 1.
+    /// Slip that a camber of one radian adds, dimensionless; 0 leaves camber thrust out. Tyres have
+    /// 0.04 to 0.1: that of a motorcycle whose lean alone carries it has its load over its stiffness.
     pub camber_stiffness: f32,
 }
 

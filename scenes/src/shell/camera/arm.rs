@@ -51,15 +51,29 @@ pub(super) fn place(
             continue;
         }
         let back = rotation * Vec3::Z;
-        let free = free_length(&physics, player, eyes, back, rig.distance);
-        // In at once, or a wall would be looked through; out slowly, or pillars would make it hop.
-        rig.arm = if free < rig.arm {
-            free
-        } else {
-            rig.arm + (free - rig.arm) * (1.0 - ops::exp(-GROW * seconds))
-        };
+        let length = rig.distance;
+        reach(&mut rig, &physics, player, eyes, back, length, seconds);
         camera.translation = eyes + back * rig.arm;
     }
+}
+
+/// Sets the arm to what is free of the length that is wanted.
+pub(super) fn reach(
+    rig: &mut CameraRig,
+    physics: &ReadRapierContext,
+    player: Entity,
+    eyes: Vec3,
+    back: Vec3,
+    length: f32,
+    seconds: f32,
+) {
+    let free = free_length(physics, player, eyes, back, length);
+    // In at once, or a wall would be looked through; out slowly, or pillars would make it hop.
+    rig.arm = if free < rig.arm {
+        free
+    } else {
+        rig.arm + (free - rig.arm) * (1.0 - ops::exp(-GROW * seconds))
+    };
 }
 
 /// How far a ball can go from the eyes before it touches something other than the player.

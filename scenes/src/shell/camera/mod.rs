@@ -1,12 +1,14 @@
-//! Third-person and first-person camera around the player.
+//! Third-person and first-person camera around the player, on foot and in a vehicle.
 
 mod arm;
+mod chase;
 mod ease;
 
 use bevy::{input::common_conditions::input_just_pressed, math::ops, prelude::*};
 use bevy_egui::input::egui_wants_any_keyboard_input;
 use bevy_embody::prelude::*;
 
+pub use chase::Seat;
 pub use ease::ViewEase;
 
 use super::{Player, input::Controls, light::haze};
@@ -40,6 +42,8 @@ pub struct CameraRig {
     pub(in crate::shell) arm: f32,
     /// Height of the eyes above the foot now, metres; 0 before the first frame.
     pub(in crate::shell) eye: f32,
+    /// Time since the player last turned it, seconds.
+    pub(in crate::shell) idle: f32,
 }
 
 impl Default for CameraRig {
@@ -49,14 +53,18 @@ impl Default for CameraRig {
             base: Quat::IDENTITY,
             yaw: 0.0,
             pitch: -0.3,
-            distance: 5.0,
-            arm: 5.0,
+            distance: Self::DISTANCE,
+            arm: Self::DISTANCE,
             eye: 0.0,
+            idle: 10.0,
         }
     }
 }
 
 impl CameraRig {
+    /// Length of the arm at the start, metres.
+    pub(in crate::shell) const DISTANCE: f32 = 5.0;
+
     /// Which way it looks.
     pub fn rotation(&self) -> Quat {
         self.heading() * Quat::from_rotation_x(self.pitch)
@@ -74,6 +82,7 @@ impl CameraRig {
         self.pitch = -0.3;
         self.arm = self.distance;
         self.eye = 0.0;
+        self.idle = 10.0;
     }
 }
 
@@ -98,7 +107,7 @@ impl Plugin for CameraPlugin {
             // After everything that moves the player or writes interpolated poses.
             .add_systems(
                 PostUpdate,
-                (follow_up, arm::place)
+                (follow_up, arm::place, chase::chase)
                     .chain()
                     .before(TransformSystems::Propagate),
             );
@@ -133,6 +142,9 @@ fn look(mut rigs: Query<&mut CameraRig>, mut players: Query<&mut Controls, With<
     for mut controls in &mut players {
         let (turn, zoom) = controls.take_look();
         for mut rig in &mut rigs {
+            if turn.length_squared() > 1e-8 {
+                rig.idle = 0.0;
+            }
             rig.yaw -= turn.x;
             rig.pitch = (rig.pitch - turn.y).clamp(-1.5, 1.5);
             rig.distance = (rig.distance * ops::exp(-0.15 * zoom)).clamp(1.5, 20.0);

@@ -7,9 +7,9 @@ use bevy_enhanced_input::prelude::*;
 
 use super::Controls;
 
-/// The situation in which the actions below hold.
+/// The situation in which the actions below hold: on foot and at the wheel.
 #[derive(Component, Clone, Copy, Debug, Default)]
-pub(super) struct OnFoot;
+pub(super) struct InControl;
 
 /// Right and forward, length up to 1.
 #[derive(InputAction)]
@@ -51,11 +51,21 @@ const MOUSE: f32 = 0.003;
 /// Turn rate of a stick that is fully tilted, radians per second.
 const STICK: f32 = 3.0;
 
+/// Accelerator of a gamepad, `0..=1`.
+#[derive(InputAction)]
+#[action_output(f32)]
+pub(super) struct Throttle;
+
+/// Brake of a gamepad, `0..=1`.
+#[derive(InputAction)]
+#[action_output(f32)]
+pub(super) struct Brake;
+
 /// Binds everything for a new player.
 pub(super) fn bind(added: On<Add, Controls>, mut commands: Commands) {
     commands.entity(added.entity).insert((
-        OnFoot,
-        actions!(OnFoot[
+        InControl,
+        actions!(InControl[
             (
                 Action::<Move>::new(),
                 DeadZone::default(),
@@ -64,6 +74,14 @@ pub(super) fn bind(added: On<Add, Controls>, mut commands: Commands) {
                     Cardinal::arrows(),
                     Axial::left_stick(),
                 )),
+            ),
+            (
+                Action::<Throttle>::new(),
+                bindings![GamepadButton::RightTrigger2],
+            ),
+            (
+                Action::<Brake>::new(),
+                bindings![GamepadButton::LeftTrigger2],
             ),
             (
                 Action::<Look>::new(),

@@ -5,8 +5,9 @@ use bevy_embody::prelude::*;
 use bevy_enhanced_input::prelude::*;
 
 use super::{
-    actions::{Crouch, Fly, Jump, Look, Move, Sprint, Zoom},
+    actions::{Brake, Crouch, Fly, Jump, Look, Move, Sprint, Throttle, Zoom},
     button::Button,
+    drive::{HeldWheel, write_drive},
 };
 use crate::shell::{
     Player,
@@ -18,10 +19,13 @@ use crate::shell::{
 /// two fall.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Controls {
-    movement: Vec2,
+    pub(super) movement: Vec2,
+    pub(super) throttle: f32,
+    pub(super) brake: f32,
+    pub(super) held: HeldWheel,
     look: Vec2,
     zoom: f32,
-    jump: Button,
+    pub(super) jump: Button,
     sprint: bool,
     crouch: bool,
     fly: bool,
@@ -39,6 +43,8 @@ impl Controls {
 
 pub(super) fn plugin(app: &mut App) {
     axis::<Move>(app, |controls, value| controls.movement = value);
+    pedal::<Throttle>(app, |controls, value| controls.throttle = value);
+    pedal::<Brake>(app, |controls, value| controls.brake = value);
     axis::<Look>(app, |controls, value| controls.look += value);
     axis::<Zoom>(app, |controls, value| controls.zoom += value.y);
     button::<Jump>(app, |controls, down| {
@@ -53,12 +59,23 @@ pub(super) fn plugin(app: &mut App) {
     button::<Fly>(app, |controls, down| controls.fly ^= down);
     app.add_systems(
         FixedPreUpdate,
-        write_intent.run_if(not(resource_exists::<Playing>)),
+        (write_intent, write_drive).run_if(not(resource_exists::<Playing>)),
     );
 }
 
-/// Hands the value of an action on, each frame while it acts and once more, at rest, when it ends.
 fn axis<A: InputAction<Output = Vec2>>(app: &mut App, set: fn(&mut Controls, Vec2)) {
+    hand_on::<A, Vec2>(app, set);
+}
+
+fn pedal<A: InputAction<Output = f32>>(app: &mut App, set: fn(&mut Controls, f32)) {
+    hand_on::<A, f32>(app, set);
+}
+
+/// Hands the value of an action on, each frame while it acts and once more, at rest, when it ends.
+fn hand_on<A: InputAction<Output = T>, T: ActionOutput + Default + 'static>(
+    app: &mut App,
+    set: fn(&mut Controls, T),
+) {
     app.add_observer(move |event: On<Fire<A>>, mut all: Query<&mut Controls>| {
         if let Ok(mut controls) = all.get_mut(event.context) {
             set(&mut controls, event.value);
@@ -67,7 +84,7 @@ fn axis<A: InputAction<Output = Vec2>>(app: &mut App, set: fn(&mut Controls, Vec
     .add_observer(
         move |event: On<Complete<A>>, mut all: Query<&mut Controls>| {
             if let Ok(mut controls) = all.get_mut(event.context) {
-                set(&mut controls, Vec2::ZERO);
+                set(&mut controls, T::default());
             }
         },
     );

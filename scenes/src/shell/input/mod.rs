@@ -1,7 +1,8 @@
-//! Keyboard, mouse and gamepad to a character's intent.
+//! Keyboard, mouse and gamepad to the intent of a character or a vehicle.
 
 mod actions;
 mod button;
+mod drive;
 mod intent;
 mod pointer;
 
@@ -17,7 +18,7 @@ pub(super) struct InputPlugin;
 impl Plugin for InputPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(EnhancedInputPlugin)
-            .add_input_context::<actions::OnFoot>()
+            .add_input_context::<actions::InControl>()
             .add_observer(actions::bind)
             .add_plugins(intent::plugin)
             .add_systems(

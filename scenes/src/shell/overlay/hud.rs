@@ -1,7 +1,7 @@
 //! What the player's character does, and which station it is at.
 
 use bevy::{
-    diagnostic::{DiagnosticsStore, FrameTimeDiagnosticsPlugin},
+    diagnostic::{DiagnosticPath, DiagnosticsStore, FrameTimeDiagnosticsPlugin},
     input::common_conditions::input_just_pressed,
     prelude::*,
 };
@@ -89,6 +89,7 @@ fn spawn(mut commands: Commands) {
             text(HudPart::Ground, 17.0, Color::WHITE),
             text(HudPart::State, 13.0, dim),
             text(HudPart::Step, 13.0, dim),
+            super::dash::gauges(),
         ],
     ));
     commands.spawn((
@@ -143,7 +144,12 @@ fn write_state(
                     state.height,
                     contacts.contacts.len(),
                     contacts.queries,
-                    clocks(&diagnostics, &fixed, &clock),
+                    clocks(
+                        &diagnostics,
+                        &fixed,
+                        &clock,
+                        &CharacterDiagnostics::TICK_TIME
+                    ),
                 ),
                 color.0,
             ),
@@ -164,7 +170,12 @@ fn write_state(
 }
 
 /// Frame rate, tick rate, cost of a tick, and what the clock does if it is not running freely.
-fn clocks(diagnostics: &DiagnosticsStore, fixed: &Time<Fixed>, clock: &Time<Virtual>) -> String {
+pub(super) fn clocks(
+    diagnostics: &DiagnosticsStore,
+    fixed: &Time<Fixed>,
+    clock: &Time<Virtual>,
+    tick: &DiagnosticPath,
+) -> String {
     let smooth = |path| {
         diagnostics
             .get(path)
@@ -175,7 +186,7 @@ fn clocks(diagnostics: &DiagnosticsStore, fixed: &Time<Fixed>, clock: &Time<Virt
         "{:.1} fps, {:.0} Hz, {:.3} ms per tick",
         smooth(&FrameTimeDiagnosticsPlugin::FPS),
         1.0 / fixed.timestep().as_secs_f64(),
-        smooth(&CharacterDiagnostics::TICK_TIME),
+        smooth(tick),
     );
     if clock.is_paused() {
         line.push_str("\nPAUSED");

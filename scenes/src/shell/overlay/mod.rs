@@ -1,5 +1,6 @@
 //! Text over the picture: what the player does, where it is, which keys there are.
 
+mod dash;
 mod help;
 mod hud;
 
@@ -12,7 +13,7 @@ pub(super) struct OverlayPlugin;
 
 impl Plugin for OverlayPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins((help::HelpPlugin, hud::HudPlugin));
+        app.add_plugins((help::HelpPlugin, hud::HudPlugin, dash::DashPlugin));
     }
 }
 
