@@ -10,6 +10,8 @@ use super::{
 };
 use crate::glb::{ARRAY, BYTE, Buffer, ELEMENTS, FLOAT, SHORT, pack, shorten};
 
+const SIGNED_SHORT: u32 = 5122;
+
 /// Rounded to a millionth, the same on every machine.
 fn round(value: f64) -> f32 {
     // Not `-0`.
@@ -24,23 +26,22 @@ fn quat(q: DQuat) -> [f32; 4] {
     [round(q.x), round(q.y), round(q.z), round(q.w)]
 }
 
-/// Numbers that are not about corners: animation and matrices, without a target.
-fn floats(buffer: &mut Buffer, kind: &str, width: usize, values: &[f32], bounds: bool) -> usize {
-    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
-    let mut accessor =
-        json!({ "componentType": FLOAT, "count": values.len() / width, "type": kind });
-    if bounds {
-        let low = values.iter().copied().fold(f32::INFINITY, f32::min);
-        let high = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        accessor["min"] = json!([low]);
-        accessor["max"] = json!([high]);
-    }
-    let index = buffer.add(&bytes, ARRAY, accessor);
-    let view = buffer.views.len() - 1;
-    if let Some(view) = buffer.views[view].as_object_mut() {
+/// Sixteen bits are finer than a hundredth of a degree.
+fn short(value: f64) -> [u8; 2] {
+    ((value * 32767.0).round() as i16).to_le_bytes()
+}
+
+/// Adds what is not about corners: animation and matrices, in a view without a target.
+fn plain(buffer: &mut Buffer, bytes: &[u8], accessor: Value) -> usize {
+    let index = buffer.add(bytes, ARRAY, accessor);
+    if let Some(view) = buffer.views.last_mut().and_then(Value::as_object_mut) {
         view.remove("target");
     }
     index
+}
+
+fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|v| v.to_le_bytes()).collect()
 }
 
 fn mesh(buffer: &mut Buffer, figure: &Figure) -> Value {
@@ -100,33 +101,48 @@ pub fn inverse_bind(skeleton: &Skeleton, bone: usize) -> DMat4 {
 }
 
 fn animation(buffer: &mut Buffer, skeleton: &Skeleton, clip: &Clip) -> Value {
-    let times: Vec<f32> = (0..clip.poses.len()).map(|i| round(clip.time(i))).collect();
-    let times = floats(buffer, "SCALAR", 1, &times, true);
+    let count = clip.poses.len();
+    let times: Vec<f32> = (0..count).map(|i| round(clip.time(i))).collect();
+    let times = plain(
+        buffer,
+        &floats(&times),
+        json!({
+            "componentType": FLOAT,
+            "count": count,
+            "type": "SCALAR",
+            "min": [0.0],
+            "max": [round(clip.duration)],
+        }),
+    );
     let (mut channels, mut samplers) = (Vec::new(), Vec::new());
-    let mut track = |buffer: &mut Buffer, node: usize, path: &str, values: &[f32]| {
-        let (kind, width) = if path == "rotation" {
-            ("VEC4", 4)
-        } else {
-            ("VEC3", 3)
-        };
+    let mut track = |node: usize, path: &str, output: usize| {
         channels.push(json!({
             "sampler": samplers.len(),
             "target": { "node": node, "path": path },
         }));
-        samplers.push(json!({
-            "input": times,
-            "output": floats(buffer, kind, width, values, false),
-            "interpolation": "LINEAR",
-        }));
+        samplers.push(json!({ "input": times, "output": output }));
     };
     for bone in 0..skeleton.bones.len() {
         let nodes = clip.poses.iter().map(|pose| pose.node(skeleton, bone));
         if bone == 0 {
-            let moves: Vec<f32> = nodes.clone().flat_map(|n| vec3(n.0).to_array()).collect();
-            track(buffer, bone, "translation", &moves);
+            let moves: Vec<f32> = nodes
+                .clone()
+                .flat_map(|(at, _)| vec3(at).to_array())
+                .collect();
+            let accessor = json!({ "componentType": FLOAT, "count": count, "type": "VEC3" });
+            track(bone, "translation", plain(buffer, &floats(&moves), accessor));
         }
-        let turns: Vec<f32> = nodes.flat_map(|n| quat(n.1)).collect();
-        track(buffer, bone, "rotation", &turns);
+        let turns: Vec<u8> = nodes
+            .flat_map(|(_, turn)| turn.to_array())
+            .flat_map(short)
+            .collect();
+        let accessor = json!({
+            "componentType": SIGNED_SHORT,
+            "normalized": true,
+            "count": count,
+            "type": "VEC4",
+        });
+        track(bone, "rotation", plain(buffer, &turns, accessor));
     }
     json!({
         "name": clip.name,
@@ -167,7 +183,11 @@ pub fn encode(figure: &Figure) -> Result<Vec<u8>, serde_json::Error> {
         .flat_map(|bone| inverse_bind(skeleton, bone).to_cols_array())
         .map(round)
         .collect();
-    let matrices = floats(&mut buffer, "MAT4", 16, &matrices, false);
+    let matrices = plain(
+        &mut buffer,
+        &floats(&matrices),
+        json!({ "componentType": FLOAT, "count": count, "type": "MAT4" }),
+    );
     let animations: Vec<Value> = figure
         .clips
         .iter()

@@ -15,7 +15,12 @@ pub struct Gate {
     pub half: f64,
     /// Soft edge towards the other side of the body, metres, for what comes in pairs.
     pub side: Option<f64>,
+    /// Bends the plane away from the trunk, metres per metre, for arms that hang beside it.
+    pub wing: f64,
 }
+
+/// Half the width of the trunk, metres.
+const TRUNK: f64 = 0.19;
 
 /// The four bones that hold a point most, with weights that add up to 255.
 pub type Weights = [(u8, u8); 4];
@@ -31,7 +36,8 @@ pub fn shares(skeleton: &Skeleton, gates: &[Gate], p: DVec3) -> Vec<f64> {
     let count = skeleton.bones.len();
     let mut pass = vec![0.0; count];
     for gate in gates {
-        let ahead = gate.normal.normalize().dot(p - gate.point);
+        let ahead = gate.normal.normalize().dot(p - gate.point)
+            + gate.wing * (p.x.abs() - TRUNK).max(0.0);
         let mut open = smooth(0.5 + 0.5 * ahead / gate.half);
         if let Some(width) = gate.side {
             open *= smooth(0.5 + 0.5 * p.x * gate.point.x.signum() / width);

@@ -40,7 +40,7 @@ fn head() -> Field {
             .blend(0.03),
         )
         .add(Blob::cone([v(0.0, 1.684, 0.085), v(0.0, 1.65, 0.106)], [0.007, 0.013]).blend(0.014))
-        .pair(Blob::ball(v(0.03, 1.7, 0.074), v(0.024, 0.008, 0.013)).blend(0.03))
+        .pair(Blob::ball(v(0.03, 1.703, 0.068), v(0.024, 0.008, 0.013)).blend(0.03))
         .pair(
             Blob::turned_ball(
                 v(0.077, 1.664, -0.006),
@@ -94,7 +94,7 @@ fn shirt() -> Field {
     let along = (elbow - shoulder).normalize();
     let mut f = Field::default();
     f.add(Blob::ball(v(0.0, 1.31, -0.014), v(0.162, 0.19, 0.112)))
-        .add(Blob::ball(v(0.0, 1.12, -0.002), v(0.138, 0.2, 0.098)).blend(0.05))
+        .add(Blob::ball(v(0.0, 1.12, -0.002), v(0.144, 0.2, 0.1)).blend(0.05))
         .add(
             Blob::ball(v(0.0, 0.965, -0.006), v(0.172, 0.2, 0.124))
                 .cut(v(0.0, 0.905, 0.0), -DVec3::Y)
@@ -158,17 +158,17 @@ fn dot(blob: Blob, center: DVec3, reach: f64, color: [f64; 3]) -> Shell {
     let mut f = Field::default();
     f.add(blob);
     let half = DVec3::splat(reach);
-    shell(&f, [center - half, center + half], reach / 2.0, color)
+    shell(&f, [center - half, center + half], reach / 2.5, color)
 }
 
 fn face() -> Vec<Shell> {
     let eye = v(0.0305, 1.676, 0.0875);
     let eye = dot(Blob::ball(eye, v(0.0085, 0.0125, 0.006)), eye, 0.016, INK);
-    let brow = v(0.032, 1.705, 0.0865);
-    let shape = Blob::turned_ball(brow, v(0.019, 0.0045, 0.006), DQuat::from_rotation_y(0.35));
+    let brow = v(0.031, 1.706, 0.0885);
+    let shape = Blob::turned_ball(brow, v(0.019, 0.005, 0.008), DQuat::from_rotation_y(0.35));
     let brow = dot(shape, brow, 0.024, HAIR);
-    let mouth = v(0.0, 1.617, 0.087);
-    let mouth = dot(Blob::ball(mouth, v(0.02, 0.0045, 0.006)), mouth, 0.024, LIP);
+    let mouth = v(0.0, 1.617, 0.0885);
+    let mouth = dot(Blob::ball(mouth, v(0.019, 0.005, 0.009)), mouth, 0.024, LIP);
     vec![eye.mirrored(), eye, brow.mirrored(), brow, mouth]
 }
 
@@ -177,12 +177,12 @@ pub fn shells() -> Vec<Shell> {
     let (_, elbow, wrist, _) = arm();
     let arm = [v(0.19, wrist.y - 0.19, -0.1), v(wrist.x + 0.17, elbow.y + 0.18, 0.16)];
     let mut all = vec![
-        shell(&head(), middle(0.112, 1.34, 1.83, -0.14, 0.15), 0.0165, SKIN),
+        shell(&head(), middle(0.112, 1.34, 1.83, -0.14, 0.15), 0.0175, SKIN),
         shell(&hair(), middle(0.112, 1.56, 1.84, -0.15, 0.13), 0.02, HAIR),
         shell(&shirt(), middle(0.416, 0.85, 1.55, -0.18, 0.18), 0.032, SHIRT),
         shell(&trousers(), middle(0.208, 0.04, 1.09, -0.17, 0.15), 0.032, TROUSERS),
     ];
-    all.extend(both(shell(&left_arm(), arm, 0.018, SKIN)));
+    all.extend(both(shell(&left_arm(), arm, 0.0195, SKIN)));
     let shoe = [v(0.02, -0.02, -0.12), v(0.18, 0.16, 0.22)];
     all.extend(both(shell(&left_shoe(), shoe, 0.02, SHOE)));
     all.extend(both(shell(&left_sole(), shoe, 0.016, SOLE)));

@@ -101,38 +101,42 @@ pub fn skeleton() -> Skeleton {
 /// The gates of the skin, one at every joint.
 pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
     let mut gates = Vec::new();
-    let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64, side: Option<f64>| {
+    let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64| {
+        let leg = name.ends_with("UpperLeg");
+        let trunk = ["spine", "chest", "upperChest"].contains(&name);
         gates.push(Gate {
             bone: skeleton.find(name),
             point,
             normal,
             half,
-            side,
+            side: leg.then_some(0.02),
+            wing: f64::from(i8::from(trunk) - i8::from(leg)) * 4.0,
         });
     };
-    gate("spine", at::SPINE, DVec3::Y, 0.06, None);
-    gate("chest", at::CHEST, DVec3::Y, 0.06, None);
-    gate("upperChest", at::UPPER_CHEST, DVec3::Y, 0.06, None);
-    gate("neck", at::NECK + DVec3::Y * 0.01, DVec3::new(0.0, 1.0, 0.3), 0.035, None);
-    gate("head", at::HEAD, DVec3::new(0.0, 1.0, -0.4), 0.03, None);
+    let up = DVec3::Y;
+    gate("spine", at::SPINE, up, 0.06);
+    gate("chest", at::CHEST, up, 0.06);
+    gate("upperChest", at::UPPER_CHEST, up, 0.06);
+    gate("neck", at::NECK + up * 0.01, DVec3::new(0.0, 1.0, 0.3), 0.035);
+    gate("head", at::HEAD, DVec3::new(0.0, 1.0, -0.4), 0.03);
     let (shoulder, elbow, wrist, ahead) = arm();
     let along = (elbow - shoulder).normalize();
+    let thumb = hand(0.07, 0.11, 0.0) - hand(0.03, 0.022, 0.0);
     for (side, sign) in SIDES {
         let flip = |v: DVec3| DVec3::new(sign * v.x, v.y, v.z);
-        let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64, pair: Option<f64>| {
-            gate(&format!("{side}{name}"), flip(point), flip(normal), half, pair);
+        let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64| {
+            gate(&format!("{side}{name}"), flip(point), flip(normal), half);
         };
-        gate("Shoulder", DVec3::new(0.095, 1.40, 0.0), DVec3::new(0.8, 0.6, 0.0), 0.06, None);
-        gate("UpperArm", shoulder - DVec3::X * 0.005, DVec3::new(0.95, -0.3, 0.0), 0.055, None);
-        gate("LowerArm", elbow, (along + ahead).normalize(), 0.045, None);
-        gate("Hand", wrist, ahead, 0.028, None);
-        gate("Fingers", hand(0.09, 0.0, 0.0), ahead, 0.02, None);
-        let thumb = hand(0.07, 0.05, 0.0) - hand(0.03, 0.022, 0.0);
-        gate("Thumb", hand(0.04, 0.032, 0.0), thumb + palm().cross(ahead) * 0.06, 0.014, None);
-        gate("UpperLeg", at::HIP - DVec3::Y * 0.03, DVec3::new(0.25, -1.0, 0.0), 0.075, Some(0.02));
-        gate("LowerLeg", at::KNEE, -DVec3::Y, 0.06, None);
-        gate("Foot", at::ANKLE + DVec3::Y * 0.01, DVec3::new(0.0, -1.0, 0.35), 0.03, None);
-        gate("Toes", at::BALL, DVec3::Z, 0.022, None);
+        gate("Shoulder", DVec3::new(0.095, 1.40, 0.0), DVec3::new(0.8, 0.6, 0.0), 0.06);
+        gate("UpperArm", shoulder - DVec3::X * 0.005, DVec3::new(0.95, -0.3, 0.0), 0.055);
+        gate("LowerArm", elbow, (along + ahead).normalize(), 0.045);
+        gate("Hand", wrist, ahead, 0.028);
+        gate("Fingers", hand(0.09, 0.0, 0.0), ahead, 0.02);
+        gate("Thumb", hand(0.04, 0.032, 0.0), thumb, 0.014);
+        gate("UpperLeg", at::HIP - up * 0.03, DVec3::new(0.25, -1.0, 0.0), 0.075);
+        gate("LowerLeg", at::KNEE, -up, 0.06);
+        gate("Foot", at::ANKLE + up * 0.01, DVec3::new(0.0, -1.0, 0.35), 0.03);
+        gate("Toes", at::BALL, DVec3::Z, 0.022);
     }
     gates
 }

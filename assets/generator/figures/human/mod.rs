@@ -3,6 +3,7 @@
 mod body;
 pub mod bones;
 pub mod gait;
+mod get_up;
 mod idle;
 mod once;
 pub mod pose;
@@ -21,6 +22,8 @@ pub fn figure() -> Figure {
             gait::RUN.clip(&skeleton),
             once::jump(&skeleton),
             once::hit(&skeleton),
+            get_up::front(&skeleton),
+            get_up::back(&skeleton),
         ],
         skeleton,
     }
