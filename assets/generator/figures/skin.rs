@@ -15,12 +15,10 @@ pub struct Gate {
     pub half: f64,
     /// Soft edge towards the other side of the body, metres, for what comes in pairs.
     pub side: Option<f64>,
-    /// Bends the plane away from the trunk, metres per metre, for arms that hang beside it.
-    pub wing: f64,
+    /// Beyond how far from the middle of the body the plane bends, and by how much, metres per
+    /// metre: for arms that hang beside a trunk.
+    pub wing: [f64; 2],
 }
-
-/// Half the width of the trunk, metres.
-const TRUNK: f64 = 0.19;
 
 /// The four bones that hold a point most, with weights that add up to 255.
 pub type Weights = [(u8, u8); 4];
@@ -37,31 +35,23 @@ pub fn shares(skeleton: &Skeleton, gates: &[Gate], p: DVec3) -> Vec<f64> {
     let mut pass = vec![0.0; count];
     for gate in gates {
         let ahead = gate.normal.normalize().dot(p - gate.point)
-            + gate.wing * (p.x.abs() - TRUNK).max(0.0);
+            + gate.wing[1] * (p.x.abs() - gate.wing[0]).max(0.0);
         let mut open = smooth(0.5 + 0.5 * ahead / gate.half);
         if let Some(width) = gate.side {
             open *= smooth(0.5 + 0.5 * p.x * gate.point.x.signum() / width);
         }
         pass[gate.bone] = open;
     }
+    // What is left for the bone itself and for children further on in the list.
     let mut left = vec![1.0_f64; count];
-    for (child, bone) in skeleton.bones.iter().enumerate() {
-        if let Some(parent) = bone.parent {
-            left[parent] -= pass[child];
-        }
-    }
-    let mut reach = vec![0.0; count];
-    reach[0] = 1.0;
-    let mut shares = vec![0.0; count];
+    let mut reach = vec![1.0_f64; count];
     for (i, bone) in skeleton.bones.iter().enumerate() {
         if let Some(parent) = bone.parent {
-            // More than all can pass where gates overlap.
-            let most = 1.0 - left[parent].min(0.0);
-            reach[i] = reach[parent] * pass[i] / most;
+            reach[i] = reach[parent] * left[parent] * pass[i];
+            left[parent] *= 1.0 - pass[i];
         }
-        shares[i] = reach[i] * left[i].max(0.0);
     }
-    shares
+    (0..count).map(|i| reach[i] * left[i]).collect()
 }
 
 /// The four largest shares, rounded so that they add up.

@@ -19,6 +19,7 @@ pub struct Shell {
 
 /// The surface of a field inside a box, from cells of a size in metres.
 pub fn shell(field: &Field, [low, high]: [DVec3; 2], cell: f64, color: [f64; 3]) -> Shell {
+    let (low, high) = (low - 2.0 * cell, high + 2.0 * cell);
     let count = ((high - low) / cell).ceil().as_ivec3() + 1;
     let corner = |i: i32, j: i32, k: i32| {
         low + DVec3::new(f64::from(i), f64::from(j), f64::from(k)) * cell
@@ -42,10 +43,43 @@ pub fn shell(field: &Field, [low, high]: [DVec3; 2], cell: f64, color: [f64; 3])
     for k in 0..count.z - 1 {
         for j in 0..count.y - 1 {
             for i in 0..count.x - 1 {
-                if let Some(point) = crossing(&values, slot, corner, [i, j, k]) {
-                    cells.insert([i, j, k], made.points.len() as u32);
-                    made.points.push(settle(field, point, cell));
+                let at = |n: usize| {
+                    let n = n as i32;
+                    (i + (n & 1), j + (n >> 1 & 1), k + (n >> 2))
+                };
+                let corners: [f64; 8] = std::array::from_fn(|n| {
+                    let (i, j, k) = at(n);
+                    values[slot(i, j, k)]
+                });
+                if corners.iter().all(|v| *v < 0.0) || corners.iter().all(|v| *v >= 0.0) {
+                    continue;
                 }
+                let mut sums = [(DVec3::ZERO, 0.0); EDGES];
+                let patches = patches(&corners);
+                for a in 0..8 {
+                    for axis in 0..3 {
+                        let b = a | 1 << axis;
+                        if b == a || (corners[a] < 0.0) == (corners[b] < 0.0) {
+                            continue;
+                        }
+                        let place = |n: usize| {
+                            let (i, j, k) = at(n);
+                            corner(i, j, k)
+                        };
+                        let t = corners[a] / (corners[a] - corners[b]);
+                        let sum = &mut sums[patches[3 * a + axis]];
+                        sum.0 += place(a).lerp(place(b), t);
+                        sum.1 += 1.0;
+                    }
+                }
+                let mut points = [0; EDGES];
+                for (point, (sum, crossed)) in points.iter_mut().zip(sums) {
+                    if crossed > 0.0 {
+                        *point = made.points.len() as u32;
+                        made.points.push(settle(field, sum / crossed, cell));
+                    }
+                }
+                cells.insert([i, j, k], patches.map(|patch| points[patch]));
             }
         }
     }
@@ -70,7 +104,9 @@ pub fn shell(field: &Field, [low, high]: [DVec3; 2], cell: f64, color: [f64; 3])
                         let mut at = [i, j, k];
                         at[u] -= a;
                         at[v] -= b;
-                        cells[&at]
+                        // The corner of that cell at which the edge starts.
+                        let start = (a as usize) << u | (b as usize) << v;
+                        cells[&at][3 * start + axis]
                     });
                     made.quad(if from {
                         quad
@@ -107,31 +143,48 @@ impl Shell {
     }
 }
 
-/// The middle of where the surface crosses the edges of a cell.
-fn crossing(
-    values: &[f64],
-    slot: impl Fn(i32, i32, i32) -> usize,
-    corner: impl Fn(i32, i32, i32) -> DVec3,
-    [i, j, k]: [i32; 3],
-) -> Option<DVec3> {
-    let mut sum = DVec3::ZERO;
-    let mut crossed = 0.0;
-    for a in 0..8 {
-        for axis in [1, 2, 4] {
-            let b = a | axis;
-            if b == a {
-                continue;
+/// Edges of a cell: three times the corner that they start at and the axis that they follow.
+const EDGES: usize = 24;
+
+/// Which piece of the surface crosses each edge of a cell: pieces are apart where they do not meet
+/// on a face, so that thin walls and creases stay closed surfaces.
+fn patches(corners: &[f64; 8]) -> [usize; EDGES] {
+    let mut piece: [usize; EDGES] = std::array::from_fn(|edge| edge);
+    let mut join = |a: usize, b: usize| {
+        let (a, b) = (piece[a], piece[b]);
+        for p in &mut piece {
+            if *p == b {
+                *p = a;
             }
-            let at = |n: i32| (i + (n & 1), j + (n >> 1 & 1), k + (n >> 2));
-            let ((ai, aj, ak), (bi, bj, bk)) = (at(a), at(b));
-            let (va, vb) = (values[slot(ai, aj, ak)], values[slot(bi, bj, bk)]);
-            if (va < 0.0) != (vb < 0.0) {
-                sum += corner(ai, aj, ak).lerp(corner(bi, bj, bk), va / (va - vb));
-                crossed += 1.0;
+        }
+    };
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        for side in [0, 1 << axis] {
+            let around = [side, side | 1 << u, side | 1 << u | 1 << v, side | 1 << v];
+            let edges = [
+                3 * around[0] + u,
+                3 * around[1] + v,
+                3 * around[3] + u,
+                3 * around[0] + v,
+            ];
+            let inside = around.map(|n| corners[n] < 0.0);
+            let crossed: Vec<usize> = (0..4)
+                .filter(|&e| inside[e] != inside[(e + 1) % 4])
+                .collect();
+            match crossed[..] {
+                [a, b] => join(edges[a], edges[b]),
+                // Two corners inside at a diagonal: about each one its own piece.
+                [_, _, _, _] => {
+                    let shift = if inside[0] { 3 } else { 0 };
+                    join(edges[shift % 4], edges[(shift + 1) % 4]);
+                    join(edges[(shift + 2) % 4], edges[(shift + 3) % 4]);
+                }
+                _ => {}
             }
         }
     }
-    (crossed > 0.0).then(|| sum / crossed)
+    piece
 }
 
 /// Draws a corner onto the surface, by less than half a cell.

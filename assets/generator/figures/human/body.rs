@@ -63,11 +63,18 @@ fn hair() -> Field {
 
 fn left_arm() -> Field {
     let (shoulder, elbow, wrist, _) = arm();
-    let thin = palm();
     let mut f = Field::default();
     f.add(Blob::cone([shoulder.lerp(elbow, 0.35), elbow], [0.044, 0.037]))
         .add(Blob::cone([elbow, elbow.lerp(wrist, 0.3)], [0.037, 0.041]).blend(0.004))
-        .add(Blob::cone([elbow.lerp(wrist, 0.3), wrist], [0.041, 0.027]).blend(0.004))
+        .add(Blob::cone([elbow.lerp(wrist, 0.3), wrist], [0.041, 0.027]).blend(0.004));
+    f
+}
+
+fn left_hand() -> Field {
+    let (_, elbow, wrist, _) = arm();
+    let thin = palm();
+    let mut f = Field::default();
+    f.add(Blob::cone([elbow.lerp(wrist, 0.93), wrist], [0.0265, 0.0245]))
         .add(
             Blob::cone([hand(0.03, 0.0, 0.0), hand(0.085, 0.0, 0.0)], [0.032, 0.04])
                 .squash(thin, 0.45)
@@ -79,12 +86,12 @@ fn left_arm() -> Field {
                 .blend(0.012),
         )
         .add(
-            Blob::cone([hand(0.025, 0.022, 0.002), hand(0.055, 0.046, 0.008)], [0.017, 0.0145])
-                .blend(0.014),
+            Blob::cone([hand(0.025, 0.022, 0.002), hand(0.056, 0.05, 0.008)], [0.0175, 0.0145])
+                .blend(0.02),
         )
         .add(
-            Blob::cone([hand(0.055, 0.046, 0.008), hand(0.085, 0.056, 0.012)], [0.0145, 0.011])
-                .blend(0.006),
+            Blob::cone([hand(0.056, 0.05, 0.008), hand(0.082, 0.066, 0.012)], [0.0145, 0.0115])
+                .blend(0.012),
         );
     f
 }
@@ -158,7 +165,7 @@ fn dot(blob: Blob, center: DVec3, reach: f64, color: [f64; 3]) -> Shell {
     let mut f = Field::default();
     f.add(blob);
     let half = DVec3::splat(reach);
-    shell(&f, [center - half, center + half], reach / 2.5, color)
+    shell(&f, [center - half, center + half], 0.0062, color)
 }
 
 fn face() -> Vec<Shell> {
@@ -175,14 +182,16 @@ fn face() -> Vec<Shell> {
 pub fn shells() -> Vec<Shell> {
     let both = |one: Shell| [one.mirrored(), one];
     let (_, elbow, wrist, _) = arm();
-    let arm = [v(0.19, wrist.y - 0.19, -0.1), v(wrist.x + 0.17, elbow.y + 0.18, 0.16)];
+    let arm = [v(0.19, wrist.y - 0.03, -0.1), v(wrist.x + 0.03, elbow.y + 0.18, 0.06)];
+    let hand = [wrist - v(0.06, 0.18, 0.06), wrist + v(0.17, 0.06, 0.13)];
     let mut all = vec![
-        shell(&head(), middle(0.112, 1.34, 1.83, -0.14, 0.15), 0.0175, SKIN),
+        shell(&head(), middle(0.112, 1.34, 1.83, -0.14, 0.15), 0.019, SKIN),
         shell(&hair(), middle(0.112, 1.56, 1.84, -0.15, 0.13), 0.02, HAIR),
-        shell(&shirt(), middle(0.416, 0.85, 1.55, -0.18, 0.18), 0.032, SHIRT),
-        shell(&trousers(), middle(0.208, 0.04, 1.09, -0.17, 0.15), 0.032, TROUSERS),
+        shell(&shirt(), middle(0.416, 0.85, 1.55, -0.18, 0.18), 0.035, SHIRT),
+        shell(&trousers(), middle(0.208, 0.04, 1.09, -0.17, 0.15), 0.035, TROUSERS),
     ];
-    all.extend(both(shell(&left_arm(), arm, 0.0195, SKIN)));
+    all.extend(both(shell(&left_arm(), arm, 0.022, SKIN)));
+    all.extend(both(shell(&left_hand(), hand, 0.0115, SKIN)));
     let shoe = [v(0.02, -0.02, -0.12), v(0.18, 0.16, 0.22)];
     all.extend(both(shell(&left_shoe(), shoe, 0.02, SHOE)));
     all.extend(both(shell(&left_sole(), shoe, 0.016, SOLE)));

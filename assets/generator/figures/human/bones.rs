@@ -103,14 +103,19 @@ pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
     let mut gates = Vec::new();
     let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64| {
         let leg = name.ends_with("UpperLeg");
-        let trunk = ["spine", "chest", "upperChest"].contains(&name);
+        let wing = match name {
+            "spine" | "chest" | "upperChest" => [0.19, 4.0],
+            "neck" => [0.065, -3.0],
+            _ if leg => [0.19, -4.0],
+            _ => [0.0; 2],
+        };
         gates.push(Gate {
             bone: skeleton.find(name),
             point,
             normal,
             half,
             side: leg.then_some(0.02),
-            wing: f64::from(i8::from(trunk) - i8::from(leg)) * 4.0,
+            wing,
         });
     };
     let up = DVec3::Y;
@@ -118,7 +123,7 @@ pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
     gate("chest", at::CHEST, up, 0.06);
     gate("upperChest", at::UPPER_CHEST, up, 0.06);
     gate("neck", at::NECK + up * 0.01, DVec3::new(0.0, 1.0, 0.3), 0.035);
-    gate("head", at::HEAD, DVec3::new(0.0, 1.0, -0.4), 0.03);
+    gate("head", at::HEAD + up * 0.005, DVec3::new(0.0, 1.0, -0.4), 0.03);
     let (shoulder, elbow, wrist, ahead) = arm();
     let along = (elbow - shoulder).normalize();
     let thumb = hand(0.07, 0.11, 0.0) - hand(0.03, 0.022, 0.0);

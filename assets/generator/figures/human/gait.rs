@@ -16,6 +16,8 @@ use crate::figures::{
 #[derive(Clone, Copy, Debug)]
 pub struct Gait {
     pub name: &'static str,
+    /// Keys per second.
+    pub rate: f64,
     /// Metres per second.
     pub speed: f64,
     /// Seconds for a step of each foot.
@@ -28,8 +30,12 @@ pub struct Gait {
     pub width: f64,
     /// Toes up as the foot comes down, heel up as it leaves.
     pub roll: [f64; 2],
+    /// Part of its time on the ground after which the heel rises.
+    pub flat: f64,
     /// How high the ankle is swung.
     pub lift: f64,
+    /// How steeply it leaves the ground and comes down, metres for the whole swing.
+    pub clear: f64,
     /// Height of the hips, and how far it goes up and down.
     pub hips: [f64; 2],
     /// Part of the cycle at which the left leg carries most.
@@ -46,13 +52,16 @@ pub struct Gait {
 
 pub const WALK: Gait = Gait {
     name: "walk",
+    rate: 40.0,
     speed: 1.3,
     cycle: 1.0,
     duty: 0.6,
     strike: 0.315,
     width: 0.085,
     roll: [18.0, 46.0],
+    flat: 0.5,
     lift: 0.05,
+    clear: 0.18,
     hips: [0.926, 0.014],
     carry: 0.3,
     vault: 1.0,
@@ -64,18 +73,21 @@ pub const WALK: Gait = Gait {
 
 pub const RUN: Gait = Gait {
     name: "run",
+    rate: 60.0,
     speed: 3.6,
     cycle: 0.7,
     duty: 0.3,
-    strike: 0.23,
+    strike: 0.265,
     width: 0.055,
     roll: [4.0, 52.0],
+    flat: 0.36,
     lift: 0.27,
-    hips: [0.905, 0.034],
+    clear: 0.45,
+    hips: [0.92, 0.028],
     carry: 0.15,
     vault: -1.0,
     sway: 0.012,
-    pelvis: [9.0, 3.0],
+    pelvis: [7.0, 3.0],
     lean: 9.0,
     arms: [2.0, 38.0, 88.0, 16.0],
 };
@@ -94,7 +106,7 @@ impl Gait {
             &[
                 (0.0, self.roll[0]),
                 (0.16, 0.0),
-                (0.5, 0.0),
+                (self.flat, 0.0),
                 (1.0, -self.roll[1]),
             ],
             u / self.duty,
@@ -126,18 +138,20 @@ impl Gait {
             hermite([value(&off), value(&on)], slopes, w)
         };
         let mut leg = on.clone();
-        // Highest at two fifths, level at both ends.
-        let bump = w * w * (1.0 - w) * (1.0 - w) * (1.0 - w) / 0.03456;
+        // Level at both ends, but for the last that keeps a sole that is off from grazing.
+        let rest = 1.0 - w;
+        let bump = self.lift * 16.0 * w * w * rest * rest
+            + self.clear * w * rest * (rest * rest * rest * rest + 0.7 * w * w * w * w);
         let path = mix(|leg| leg.ankle.y);
         leg.ankle = DVec3::new(
             mix(|leg| leg.ankle.x),
-            path + self.lift * bump,
+            path + bump,
             mix(|leg| leg.ankle.z),
         );
         leg.foot[0] = hermite(
             [off.foot[0], on.foot[0]],
             [0.0, 0.0],
-            ease(w / 0.85),
+            ease(w),
         );
         leg.toes = off.toes * (1.0 - ease(w / 0.4));
         leg
@@ -155,8 +169,8 @@ impl Gait {
             0.0,
         );
         let [yaw, drop] = self.pelvis;
-        made.pelvis = [self.lean * 0.6, -drop * carry, -yaw * left];
-        made.back = [self.lean * 0.6 + 2.0, 1.2 * drop * carry, 2.0 * yaw * left];
+        made.pelvis = [0.5 * self.lean, -drop * carry, -yaw * left];
+        made.back = [self.lean * 0.7 + 2.0, 1.2 * drop * carry, 2.0 * yaw * left];
         made.nod = [-self.lean * 0.9, 0.0, -yaw * left];
         let [middle, swing, elbow, bend] = self.arms;
         for (arm, ahead) in made.arms.iter_mut().zip([-left, left]) {
@@ -171,7 +185,7 @@ impl Gait {
     }
 
     pub fn clip(&self, skeleton: &Skeleton) -> Clip {
-        Clip::sample(self.name, self.cycle, 40.0, |t| {
+        Clip::sample(self.name, self.cycle, self.rate, |t| {
             // The end is the start to the bit.
             self.stance((t / self.cycle).rem_euclid(1.0)).pose(skeleton)
         })

@@ -5,6 +5,8 @@ pub mod bones;
 pub mod gait;
 mod get_up;
 mod idle;
+#[cfg(test)]
+pub mod limits;
 mod once;
 pub mod pose;
 

@@ -27,13 +27,13 @@ fn feet(stance: &mut Stance, up: f64, heel: f64) {
 pub fn jump(skeleton: &Skeleton) -> Clip {
     let start = idle::stance(0.0);
     let mut crouch = start.clone();
-    crouch.hips.y = 0.70;
+    crouch.hips.y = 0.72;
     crouch.hips.z = -0.07;
     crouch.pelvis[0] = 30.0;
     crouch.back[0] = 18.0;
     crouch.nod[0] = -24.0;
-    arms(&mut crouch, |arm| arm.angles = [-38.0, 14.0, 4.0, 22.0]);
-    feet(&mut crouch, 0.0, 4.0);
+    arms(&mut crouch, |arm| arm.angles = [-30.0, 14.0, 4.0, 22.0]);
+    feet(&mut crouch, 0.0, 22.0);
     let mut push = start.clone();
     push.hips.y = 0.985;
     push.hips.z = 0.02;
@@ -41,7 +41,7 @@ pub fn jump(skeleton: &Skeleton) -> Clip {
     push.back[0] = -6.0;
     push.nod[0] = -8.0;
     arms(&mut push, |arm| {
-        arm.angles = [125.0, 18.0, 4.0, 28.0];
+        arm.angles = [55.0, 20.0, 4.0, 34.0];
         arm.shoulder = [12.0, 4.0];
     });
     feet(&mut push, 0.0, 34.0);
@@ -50,7 +50,7 @@ pub fn jump(skeleton: &Skeleton) -> Clip {
     air.pelvis[0] = 10.0;
     air.back[0] = 14.0;
     air.nod[0] = -10.0;
-    arms(&mut air, |arm| arm.angles = [70.0, 38.0, 4.0, 48.0]);
+    arms(&mut air, |arm| arm.angles = [78.0, 38.0, 4.0, 48.0]);
     feet(&mut air, 0.24, 24.0);
     air.legs[0].ankle.z -= 0.06;
     air.legs[1].ankle.z += 0.02;
@@ -61,13 +61,13 @@ pub fn jump(skeleton: &Skeleton) -> Clip {
     arms(&mut reach, |arm| arm.angles = [34.0, 42.0, 4.0, 36.0]);
     feet(&mut reach, 0.012, 12.0);
     let mut land = start.clone();
-    land.hips.y = 0.735;
+    land.hips.y = 0.745;
     land.hips.z = -0.06;
     land.pelvis[0] = 26.0;
     land.back[0] = 16.0;
     land.nod[0] = -16.0;
     arms(&mut land, |arm| arm.angles = [16.0, 34.0, 4.0, 42.0]);
-    feet(&mut land, 0.0, 2.0);
+    feet(&mut land, 0.0, 20.0);
     let keys = [
         (0.0, start.clone()),
         (0.2, crouch),

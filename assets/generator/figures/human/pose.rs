@@ -13,6 +13,9 @@ use crate::figures::{
 /// Most that a knee and an elbow bend, degrees.
 pub const KNEE_MOST: f64 = 138.0;
 pub const ELBOW_MOST: f64 = 143.0;
+/// Most that the toes go up and down at the ankle, degrees.
+const ANKLE_UP: f64 = 18.5;
+const ANKLE_DOWN: f64 = 48.0;
 
 /// An arm, as on the left: `x` is positive outwards.
 #[derive(Clone, Debug)]
@@ -198,6 +201,18 @@ fn flip(v: DVec3, sign: f64) -> DVec3 {
     DVec3::new(sign * v.x, v.y, v.z)
 }
 
+/// An ankle bends only so far, wherever the foot was to point.
+fn ankle(turn: DQuat) -> DQuat {
+    let turn = if turn.w < 0.0 { -turn } else { turn };
+    let twist = DQuat::from_xyzw(0.0, turn.y, 0.0, turn.w).normalize();
+    let swing = (turn * twist.inverse()).to_scaled_axis();
+    let within = |v: f64, [low, high]: [f64; 2]| v.clamp(low.to_radians(), high.to_radians());
+    let x = within(swing.x, [-ANKLE_UP, ANKLE_DOWN]);
+    let z = within(swing.z, [-6.0, 6.0]);
+    let y = within(twist.to_scaled_axis().y, [-9.0, 9.0]);
+    DQuat::from_scaled_axis(DVec3::new(x, 0.0, z)) * DQuat::from_rotation_y(y)
+}
+
 impl Arm {
     /// Turn of the upper arm against the collar bone and bend of the elbow, by angles.
     fn by_angles(&self) -> (DQuat, f64) {
@@ -249,7 +264,10 @@ impl Leg {
         let [upper, lower] = leg_limb().reach(flip(hip, sign), self.ankle, self.pole);
         pose.aim(skeleton, bone("UpperLeg"), on_side(upper, sign));
         pose.turns[bone("LowerLeg")] = on_side(lower, sign);
-        pose.aim(skeleton, bone("Foot"), on_side(self.foot_turn(), sign));
+        let foot = bone("Foot");
+        pose.aim(skeleton, foot, on_side(self.foot_turn(), sign));
+        let free = on_side(pose.turns[foot], sign);
+        pose.turns[foot] = on_side(ankle(free), sign);
         let toes = DQuat::from_rotation_x(-self.toes.to_radians());
         pose.turns[bone("Toes")] = on_side(toes, sign);
     }
