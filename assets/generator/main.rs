@@ -4,6 +4,7 @@
 //! The measures are in `embody_scenes::course::layout`, from which the stations judge; what is
 //! here is how things look and what they are made of.
 
+mod figures;
 mod font;
 mod glb;
 mod level;
@@ -35,6 +36,15 @@ fn build() -> Level {
 )]
 fn main() -> ExitCode {
     let check = std::env::args().any(|argument| argument == "--check");
+    for figure in figures::all() {
+        match figures::make(&figure, check) {
+            Ok(line) => println!("{line}"),
+            Err(line) => {
+                eprintln!("{line}");
+                return ExitCode::FAILURE;
+            }
+        }
+    }
     let path = course();
     let level = build();
     let bytes = match glb::encode(&level) {

@@ -151,7 +151,10 @@ fn loops_end_as_they_start_and_pass_their_seam_without_a_jerk() {
             })
             .fold(0.0, f64::max);
         for (bone, (a, b)) in first.turns.iter().zip(&last.turns).enumerate() {
-            let name = format!("{} {} {}", figure.name, clip.name, figure.skeleton.bones[bone].name);
+            let name = format!(
+                "{} {} {}",
+                figure.name, clip.name, figure.skeleton.bones[bone].name
+            );
             assert!(a.dot(*b).abs() > 1.0 - 1e-9, "{name} is not closed");
             let jump = (step(bone, before, last) - step(bone, first, after)).length();
             assert!(
@@ -172,7 +175,12 @@ fn no_bone_turns_faster_than_a_body_can() {
             for (bone, (a, b)) in pair[0].turns.iter().zip(&pair[1].turns).enumerate() {
                 let rate = a.angle_between(*b) / step;
                 let name = &figure.skeleton.bones[bone].name;
-                assert!(rate < 25.0, "{} {}: {name} at {rate} rad/s", figure.name, clip.name);
+                assert!(
+                    rate < 25.0,
+                    "{} {}: {name} at {rate} rad/s",
+                    figure.name,
+                    clip.name
+                );
             }
         }
     });
@@ -191,7 +199,10 @@ fn no_clip_of_the_human_leaves_the_limits_of_its_joints() {
     }
     for (name, time, pose) in poses {
         let (joint, beyond) = limits::worst(&human.skeleton, &pose);
-        assert!(beyond < 0.5, "{name} at {time:.2} s: {joint} by {beyond:.1} degrees");
+        assert!(
+            beyond < 0.5,
+            "{name} at {time:.2} s: {joint} by {beyond:.1} degrees"
+        );
     }
 }
 
@@ -205,7 +216,8 @@ fn slip(skeleton: &Skeleton, clip: &Clip) -> f64 {
         let pose = between(clip, part);
         spots.map(|(bone, spot)| {
             let bone = skeleton.find(bone);
-            pose.place(skeleton, bone).carry(&skeleton.bones[bone], spot)
+            pose.place(skeleton, bone)
+                .carry(&skeleton.bones[bone], spot)
         })
     };
     let ground = clip.speed * clip.duration / f64::from(steps);
@@ -277,7 +289,12 @@ fn clips_that_are_not_loops_end_standing() {
 fn the_files_are_small_and_sound() {
     for figure in all() {
         let bytes = encode(&figure).expect("it can be encoded");
-        assert!(bytes.len() < 400_000, "{}: {} bytes", figure.name, bytes.len());
+        assert!(
+            bytes.len() < 400_000,
+            "{}: {} bytes",
+            figure.name,
+            bytes.len()
+        );
         let file = gltf::Gltf::from_slice(&bytes).expect("it is glTF");
         let blob = file.blob.as_deref().expect("it has a buffer");
         let buffer = |_: gltf::Buffer<'_>| Some(blob);
@@ -349,6 +366,10 @@ fn the_files_are_what_the_generator_makes() {
     for figure in all() {
         let made = encode(&figure).expect("it can be encoded");
         let found = std::fs::read(super::path(&figure)).expect("it is there");
-        assert!(made == found, "{}.glb is not what the generator makes", figure.name);
+        assert!(
+            made == found,
+            "{}.glb is not what the generator makes",
+            figure.name
+        );
     }
 }

@@ -5,10 +5,7 @@ use bevy::math::{DQuat, DVec3};
 #[derive(Clone, Debug)]
 enum Shape {
     /// Two balls and the cone that wraps them.
-    Cone {
-        ends: [DVec3; 2],
-        radii: [f64; 2],
-    },
+    Cone { ends: [DVec3; 2], radii: [f64; 2] },
     Ball {
         center: DVec3,
         radii: DVec3,
@@ -89,9 +86,7 @@ impl Blob {
                 },
             },
             squash: self.squash.map(|(axis, factor)| (flip(axis), factor)),
-            cut: self
-                .cut
-                .map(|(point, normal)| (flip(point), flip(normal))),
+            cut: self.cut.map(|(point, normal)| (flip(point), flip(normal))),
             blend: self.blend,
         }
     }

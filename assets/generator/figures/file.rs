@@ -130,7 +130,11 @@ fn animation(buffer: &mut Buffer, skeleton: &Skeleton, clip: &Clip) -> Value {
                 .flat_map(|(at, _)| vec3(at).to_array())
                 .collect();
             let accessor = json!({ "componentType": FLOAT, "count": count, "type": "VEC3" });
-            track(bone, "translation", plain(buffer, &floats(&moves), accessor));
+            track(
+                bone,
+                "translation",
+                plain(buffer, &floats(&moves), accessor),
+            );
         }
         let turns: Vec<u8> = nodes
             .flat_map(|(_, turn)| turn.to_array())

@@ -21,9 +21,8 @@ pub struct Shell {
 pub fn shell(field: &Field, [low, high]: [DVec3; 2], cell: f64, color: [f64; 3]) -> Shell {
     let (low, high) = (low - 2.0 * cell, high + 2.0 * cell);
     let count = ((high - low) / cell).ceil().as_ivec3() + 1;
-    let corner = |i: i32, j: i32, k: i32| {
-        low + DVec3::new(f64::from(i), f64::from(j), f64::from(k)) * cell
-    };
+    let corner =
+        |i: i32, j: i32, k: i32| low + DVec3::new(f64::from(i), f64::from(j), f64::from(k)) * cell;
     let slot = |i: i32, j: i32, k: i32| ((k * count.y + j) * count.x + i) as usize;
     let mut values = Vec::with_capacity((count.x * count.y * count.z) as usize);
     for k in 0..count.z {

@@ -20,11 +20,29 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
 
 fn trunk() -> Field {
     let mut f = Field::default();
-    f.add(Blob::cone([v(0.0, 0.465, 0.13), v(0.0, 0.485, 0.02)], [0.124, 0.112]).squash(DVec3::X, 0.82))
-        .add(Blob::cone([v(0.0, 0.49, 0.02), v(0.0, 0.515, -0.17)], [0.106, 0.08]).squash(DVec3::X, 0.85).blend(0.02))
-        .add(Blob::cone([v(0.0, 0.515, -0.17), v(0.0, 0.51, -0.31)], [0.08, 0.088]).squash(DVec3::X, 0.95).blend(0.02))
-        .add(Blob::cone([v(0.0, 0.53, 0.2), at::HEAD - v(0.0, 0.02, 0.01)], [0.086, 0.06]).squash(DVec3::X, 0.85).blend(0.05))
-        .add(Blob::ball(v(0.0, 0.45, 0.215), v(0.06, 0.075, 0.045)).blend(0.05));
+    f.add(
+        Blob::cone([v(0.0, 0.465, 0.13), v(0.0, 0.485, 0.02)], [0.124, 0.112])
+            .squash(DVec3::X, 0.82),
+    )
+    .add(
+        Blob::cone([v(0.0, 0.49, 0.02), v(0.0, 0.515, -0.17)], [0.106, 0.08])
+            .squash(DVec3::X, 0.85)
+            .blend(0.02),
+    )
+    .add(
+        Blob::cone([v(0.0, 0.515, -0.17), v(0.0, 0.51, -0.31)], [0.08, 0.088])
+            .squash(DVec3::X, 0.95)
+            .blend(0.02),
+    )
+    .add(
+        Blob::cone(
+            [v(0.0, 0.53, 0.2), at::HEAD - v(0.0, 0.02, 0.01)],
+            [0.086, 0.06],
+        )
+        .squash(DVec3::X, 0.85)
+        .blend(0.05),
+    )
+    .add(Blob::ball(v(0.0, 0.45, 0.215), v(0.06, 0.075, 0.045)).blend(0.05));
     // Tail.
     let t = at::TAIL;
     f.add(Blob::cone([t[0] + v(0.0, 0.0, 0.03), t[1]], [0.034, 0.027]).blend(0.03))
@@ -32,17 +50,47 @@ fn trunk() -> Field {
         .add(Blob::cone([t[2], t[3]], [0.025, 0.018]).blend(0.006));
     // Front legs.
     let [blade, shoulder, elbow, wrist, paw, tip] = at::FRONT;
-    f.pair(Blob::cone([blade + v(0.01, -0.03, 0.0), shoulder], [0.045, 0.05]).squash(DVec3::X, 0.75).blend(0.05))
-        .pair(Blob::cone([shoulder, elbow], [0.052, 0.042]).squash(DVec3::X, 0.85).blend(0.03))
-        .pair(Blob::cone([elbow, wrist], [0.04, 0.027]).blend(0.012))
-        .pair(Blob::cone([wrist, paw], [0.027, 0.026]).blend(0.006))
-        .pair(Blob::ball(paw.lerp(tip, 0.5) + v(0.0, 0.004, 0.0), v(0.034, 0.026, 0.044)).cut(v(0.0, 0.004, 0.0), -DVec3::Y).blend(0.02));
+    f.pair(
+        Blob::cone([blade + v(0.01, -0.03, 0.0), shoulder], [0.045, 0.05])
+            .squash(DVec3::X, 0.75)
+            .blend(0.05),
+    )
+    .pair(
+        Blob::cone([shoulder, elbow], [0.052, 0.042])
+            .squash(DVec3::X, 0.85)
+            .blend(0.03),
+    )
+    .pair(Blob::cone([elbow, wrist], [0.04, 0.027]).blend(0.012))
+    .pair(Blob::cone([wrist, paw], [0.027, 0.026]).blend(0.006))
+    .pair(
+        Blob::ball(
+            paw.lerp(tip, 0.5) + v(0.0, 0.004, 0.0),
+            v(0.034, 0.026, 0.044),
+        )
+        .cut(v(0.0, 0.004, 0.0), -DVec3::Y)
+        .blend(0.02),
+    );
     // Back legs.
     let [hip, knee, heel, hind, toe] = at::BACK;
-    f.pair(Blob::cone([hip + v(-0.006, -0.02, 0.005), knee], [0.086, 0.052]).squash(DVec3::X, 0.68).blend(0.05))
-        .pair(Blob::cone([knee, heel], [0.05, 0.026]).squash(DVec3::X, 0.9).blend(0.02))
-        .pair(Blob::cone([heel, hind], [0.027, 0.024]).blend(0.008))
-        .pair(Blob::ball(hind.lerp(toe, 0.5) + v(0.0, 0.004, 0.0), v(0.032, 0.026, 0.044)).cut(v(0.0, 0.004, 0.0), -DVec3::Y).blend(0.02));
+    f.pair(
+        Blob::cone([hip + v(-0.006, -0.02, 0.005), knee], [0.086, 0.052])
+            .squash(DVec3::X, 0.68)
+            .blend(0.05),
+    )
+    .pair(
+        Blob::cone([knee, heel], [0.05, 0.026])
+            .squash(DVec3::X, 0.9)
+            .blend(0.02),
+    )
+    .pair(Blob::cone([heel, hind], [0.027, 0.024]).blend(0.008))
+    .pair(
+        Blob::ball(
+            hind.lerp(toe, 0.5) + v(0.0, 0.004, 0.0),
+            v(0.032, 0.026, 0.044),
+        )
+        .cut(v(0.0, 0.004, 0.0), -DVec3::Y)
+        .blend(0.02),
+    );
     f
 }
 
@@ -72,9 +120,21 @@ pub fn shells() -> Vec<Shell> {
     let pale = Blob::cone([v(0.0, 0.682, 0.45), v(0.0, 0.673, 0.508)], [0.0385, 0.033]);
     all.push(dot(pale, muzzle, 0.1, 0.0125, PALE));
     let nose = v(0.0, 0.694, 0.536);
-    all.push(dot(Blob::ball(nose, v(0.017, 0.013, 0.013)), nose, 0.02, 0.0075, INK));
+    all.push(dot(
+        Blob::ball(nose, v(0.017, 0.013, 0.013)),
+        nose,
+        0.02,
+        0.0075,
+        INK,
+    ));
     let eye = v(0.04, 0.732, 0.444);
-    all.extend(both(dot(Blob::ball(eye, v(0.0085, 0.01, 0.009)), eye, 0.014, 0.0055, INK)));
+    all.extend(both(dot(
+        Blob::ball(eye, v(0.0085, 0.01, 0.009)),
+        eye,
+        0.014,
+        0.0055,
+        INK,
+    )));
     let [root, tip] = at::EAR;
     let middle = root.lerp(tip, 0.55);
     let turn = DQuat::from_rotation_z(0.38);

@@ -22,7 +22,10 @@ pub mod at {
         DVec3::new(0.0, 0.565, -0.58),
         DVec3::new(0.0, 0.615, -0.665),
     ];
-    pub const EAR: [DVec3; 2] = [DVec3::new(0.045, 0.765, 0.345), DVec3::new(0.07, 0.70, 0.345)];
+    pub const EAR: [DVec3; 2] = [
+        DVec3::new(0.045, 0.765, 0.345),
+        DVec3::new(0.07, 0.70, 0.345),
+    ];
     /// Shoulder blade, shoulder, elbow, wrist, paw, tip of the paw.
     pub const FRONT: [DVec3; 6] = [
         DVec3::new(0.05, 0.575, 0.145),
@@ -42,7 +45,13 @@ pub mod at {
     ];
 }
 
-pub const FRONT: [&str; 5] = ["Shoulder", "FrontUpperLeg", "FrontLowerLeg", "FrontFoot", "FrontToes"];
+pub const FRONT: [&str; 5] = [
+    "Shoulder",
+    "FrontUpperLeg",
+    "FrontLowerLeg",
+    "FrontFoot",
+    "FrontToes",
+];
 pub const BACK: [&str; 4] = ["BackUpperLeg", "BackLowerLeg", "BackFoot", "BackToes"];
 
 pub fn skeleton() -> Skeleton {
@@ -61,7 +70,12 @@ pub fn skeleton() -> Skeleton {
     }
     for (side, sign) in SIDES {
         let flip = |v: DVec3| DVec3::new(sign * v.x, v.y, v.z);
-        made.add(&format!("{side}Ear"), "head", flip(at::EAR[0]), flip(at::EAR[1]));
+        made.add(
+            &format!("{side}Ear"),
+            "head",
+            flip(at::EAR[0]),
+            flip(at::EAR[1]),
+        );
         let mut chain = |names: &[&str], joints: &[DVec3], root: &str| {
             let mut parent = root.to_string();
             for (name, pair) in names.iter().zip(joints.windows(2)) {
@@ -98,23 +112,71 @@ pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
     gate("neck", at::NECK, at::HEAD - at::NECK, 0.06, None);
     gate("head", at::HEAD, DVec3::new(0.0, 0.35, 1.0), 0.035, None);
     for (i, pair) in at::TAIL.windows(2).enumerate() {
-        gate(&format!("tail{}", i + 1), pair[0], pair[1] - pair[0], 0.03, None);
+        gate(
+            &format!("tail{}", i + 1),
+            pair[0],
+            pair[1] - pair[0],
+            0.03,
+            None,
+        );
     }
     for (side, sign) in SIDES {
         let flip = |v: DVec3| DVec3::new(sign * v.x, v.y, v.z);
         let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64, pair: Option<f64>| {
-            gate(&format!("{side}{name}"), flip(point), flip(normal), half, pair);
+            gate(
+                &format!("{side}{name}"),
+                flip(point),
+                flip(normal),
+                half,
+                pair,
+            );
         };
         let [_, shoulder, elbow, wrist, paw, _] = at::FRONT;
         let [hip, knee, heel, hind, _] = at::BACK;
-        gate("Ear", at::EAR[0] + DVec3::X * 0.006, DVec3::new(1.0, -0.6, 0.0), 0.014, None);
-        gate("Shoulder", DVec3::new(0.075, 0.47, 0.2), DVec3::new(0.75, -0.55, 0.1), 0.05, Some(0.03));
-        gate("FrontUpperLeg", shoulder - DVec3::Y * 0.03, DVec3::new(0.1, -1.0, -0.3), 0.05, None);
-        gate("FrontLowerLeg", elbow, DVec3::new(0.0, -1.0, 0.35), 0.04, None);
+        gate(
+            "Ear",
+            at::EAR[0] + DVec3::X * 0.006,
+            DVec3::new(1.0, -0.6, 0.0),
+            0.014,
+            None,
+        );
+        gate(
+            "Shoulder",
+            DVec3::new(0.075, 0.47, 0.2),
+            DVec3::new(0.75, -0.55, 0.1),
+            0.05,
+            Some(0.03),
+        );
+        gate(
+            "FrontUpperLeg",
+            shoulder - DVec3::Y * 0.03,
+            DVec3::new(0.1, -1.0, -0.3),
+            0.05,
+            None,
+        );
+        gate(
+            "FrontLowerLeg",
+            elbow,
+            DVec3::new(0.0, -1.0, 0.35),
+            0.04,
+            None,
+        );
         gate("FrontFoot", wrist, -DVec3::Y, 0.025, None);
         gate("FrontToes", paw, DVec3::new(0.0, -0.5, 1.0), 0.018, None);
-        gate("BackUpperLeg", hip + DVec3::new(-0.01, -0.05, 0.0), DVec3::new(0.7, -1.0, 0.0), 0.07, Some(0.03));
-        gate("BackLowerLeg", knee, DVec3::new(0.0, -0.95, -0.3), 0.045, None);
+        gate(
+            "BackUpperLeg",
+            hip + DVec3::new(-0.01, -0.05, 0.0),
+            DVec3::new(0.7, -1.0, 0.0),
+            0.07,
+            Some(0.03),
+        );
+        gate(
+            "BackLowerLeg",
+            knee,
+            DVec3::new(0.0, -0.95, -0.3),
+            0.045,
+            None,
+        );
         gate("BackFoot", heel, DVec3::new(0.0, -1.0, -0.1), 0.03, None);
         gate("BackToes", hind, DVec3::new(0.0, -0.5, 1.0), 0.018, None);
     }

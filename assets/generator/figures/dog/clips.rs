@@ -103,7 +103,11 @@ impl Gait {
         let twice = wave(2.0 * u + 0.12);
         let [low, bounce] = self.body;
         made.hips.y -= low + bounce * twice;
-        made.pelvis = [0.8 * wave(2.0 * u), self.swing[1] * wave(u), -self.swing[0] * 0.6 * left];
+        made.pelvis = [
+            0.8 * wave(2.0 * u),
+            self.swing[1] * wave(u),
+            -self.swing[0] * 0.6 * left,
+        ];
         made.back = [-0.8 * wave(2.0 * u), 0.0, self.swing[0] * left];
         made.neck = [4.0 + 3.0 * twice, 0.0, -self.swing[0] * 0.3 * left];
         made.head[0] -= 4.0 * twice;
@@ -126,7 +130,11 @@ fn idle_stance(u: f64) -> Stance {
     made.hips.y -= 0.002 * (1.0 + breath);
     made.back[0] = -0.8 * breath;
     made.neck = [-1.5 * breath, 0.0, 9.0 * slow];
-    made.head = [6.0 + 2.0 * breath, 0.0, 8.0 * wave(u - 0.06) + 8.0 * wave(0.06)];
+    made.head = [
+        6.0 + 2.0 * breath,
+        0.0,
+        8.0 * wave(u - 0.06) + 8.0 * wave(0.06),
+    ];
     made.tail = [6.0, 13.0 * wave(8.0 * u)];
     made
 }
@@ -159,7 +167,7 @@ pub fn lie(skeleton: &Skeleton) -> Clip {
     bow.neck[0] = -8.0;
     legs(&mut bow, [0.03, 0.27, -24.0], [0.03, -0.36, -24.0]);
     let mut down = start.clone();
-    down.hips = DVec3::new(0.0, 0.205, -0.335);
+    down.hips = DVec3::new(0.0, 0.221, -0.335);
     down.pelvis[0] = 2.0;
     down.back[0] = -2.0;
     down.neck[0] = -4.0;

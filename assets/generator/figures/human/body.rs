@@ -32,13 +32,7 @@ fn head() -> Field {
         .add(Blob::ball(v(0.0, 1.655, 0.026), v(0.058, 0.082, 0.064)).blend(0.04))
         .add(Blob::ball(v(0.0, 1.598, 0.056), v(0.034, 0.026, 0.032)).blend(0.05))
         .pair(Blob::ball(v(0.044, 1.622, 0.02), v(0.018, 0.03, 0.03)).blend(0.04))
-        .add(
-            Blob::cone(
-                [v(0.0, 1.42, -0.035), v(0.0, 1.62, -0.012)],
-                [0.06, 0.051],
-            )
-            .blend(0.03),
-        )
+        .add(Blob::cone([v(0.0, 1.42, -0.035), v(0.0, 1.62, -0.012)], [0.06, 0.051]).blend(0.03))
         .add(Blob::cone([v(0.0, 1.684, 0.085), v(0.0, 1.65, 0.106)], [0.007, 0.013]).blend(0.014))
         .pair(Blob::ball(v(0.03, 1.703, 0.068), v(0.024, 0.008, 0.013)).blend(0.03))
         .pair(
@@ -64,9 +58,12 @@ fn hair() -> Field {
 fn left_arm() -> Field {
     let (shoulder, elbow, wrist, _) = arm();
     let mut f = Field::default();
-    f.add(Blob::cone([shoulder.lerp(elbow, 0.35), elbow], [0.044, 0.037]))
-        .add(Blob::cone([elbow, elbow.lerp(wrist, 0.3)], [0.037, 0.041]).blend(0.004))
-        .add(Blob::cone([elbow.lerp(wrist, 0.3), wrist], [0.041, 0.027]).blend(0.004));
+    f.add(Blob::cone(
+        [shoulder.lerp(elbow, 0.35), elbow],
+        [0.044, 0.037],
+    ))
+    .add(Blob::cone([elbow, elbow.lerp(wrist, 0.3)], [0.037, 0.041]).blend(0.004))
+    .add(Blob::cone([elbow.lerp(wrist, 0.3), wrist], [0.041, 0.027]).blend(0.004));
     f
 }
 
@@ -74,25 +71,37 @@ fn left_hand() -> Field {
     let (_, elbow, wrist, _) = arm();
     let thin = palm();
     let mut f = Field::default();
-    f.add(Blob::cone([elbow.lerp(wrist, 0.93), wrist], [0.0265, 0.0245]))
-        .add(
-            Blob::cone([hand(0.03, 0.0, 0.0), hand(0.085, 0.0, 0.0)], [0.032, 0.04])
-                .squash(thin, 0.45)
-                .blend(0.02),
+    f.add(Blob::cone(
+        [elbow.lerp(wrist, 0.93), wrist],
+        [0.0265, 0.0245],
+    ))
+    .add(
+        Blob::cone([hand(0.03, 0.0, 0.0), hand(0.085, 0.0, 0.0)], [0.032, 0.04])
+            .squash(thin, 0.45)
+            .blend(0.02),
+    )
+    .add(
+        Blob::cone(
+            [hand(0.085, -0.004, 0.002), hand(0.155, -0.006, 0.012)],
+            [0.037, 0.024],
         )
-        .add(
-            Blob::cone([hand(0.085, -0.004, 0.002), hand(0.155, -0.006, 0.012)], [0.037, 0.024])
-                .squash(thin, 0.42)
-                .blend(0.012),
+        .squash(thin, 0.42)
+        .blend(0.012),
+    )
+    .add(
+        Blob::cone(
+            [hand(0.025, 0.022, 0.002), hand(0.056, 0.05, 0.008)],
+            [0.0175, 0.0145],
         )
-        .add(
-            Blob::cone([hand(0.025, 0.022, 0.002), hand(0.056, 0.05, 0.008)], [0.0175, 0.0145])
-                .blend(0.02),
+        .blend(0.02),
+    )
+    .add(
+        Blob::cone(
+            [hand(0.056, 0.05, 0.008), hand(0.082, 0.066, 0.012)],
+            [0.0145, 0.0115],
         )
-        .add(
-            Blob::cone([hand(0.056, 0.05, 0.008), hand(0.082, 0.066, 0.012)], [0.0145, 0.0115])
-                .blend(0.012),
-        );
+        .blend(0.012),
+    );
     f
 }
 
@@ -108,11 +117,20 @@ fn shirt() -> Field {
                 .blend(0.03),
         )
         .pair(Blob::ball(v(0.066, 1.36, 0.05), v(0.078, 0.06, 0.04)).blend(0.06))
-        .pair(Blob::cone([v(0.02, 1.458, -0.035), v(0.15, 1.412, -0.024)], [0.06, 0.058]).blend(0.04))
         .pair(
-            Blob::cone([shoulder - DVec3::Y * 0.008, shoulder + along * 0.2], [0.064, 0.062])
-                .cut(shoulder + along * 0.165, along)
-                .blend(0.025),
+            Blob::cone(
+                [v(0.02, 1.458, -0.035), v(0.15, 1.412, -0.024)],
+                [0.06, 0.058],
+            )
+            .blend(0.04),
+        )
+        .pair(
+            Blob::cone(
+                [shoulder - DVec3::Y * 0.008, shoulder + along * 0.2],
+                [0.064, 0.062],
+            )
+            .cut(shoulder + along * 0.165, along)
+            .blend(0.025),
         );
     f
 }
@@ -125,9 +143,12 @@ fn trousers() -> Field {
         .pair(Blob::cone([at::HIP - DVec3::Y * 0.04, at::KNEE], [0.082, 0.058]).blend(0.025))
         .pair(Blob::cone([at::KNEE, v(0.098, 0.36, -0.014)], [0.058, 0.06]).blend(0.004))
         .pair(
-            Blob::cone([v(0.098, 0.36, -0.014), v(0.098, 0.04, -0.02)], [0.06, 0.05])
-                .cut(hem, -DVec3::Y)
-                .blend(0.004),
+            Blob::cone(
+                [v(0.098, 0.36, -0.014), v(0.098, 0.04, -0.02)],
+                [0.06, 0.05],
+            )
+            .cut(hem, -DVec3::Y)
+            .blend(0.004),
         );
     f
 }
@@ -136,27 +157,44 @@ fn left_shoe() -> Field {
     let floor = v(0.0, 0.014, 0.0);
     let mut f = Field::default();
     f.add(
-        Blob::cone([v(0.098, 0.045, -0.04), v(0.105, 0.034, 0.1)], [0.042, 0.042])
-            .cut(floor, -DVec3::Y),
+        Blob::cone(
+            [v(0.098, 0.045, -0.04), v(0.105, 0.034, 0.1)],
+            [0.042, 0.042],
+        )
+        .cut(floor, -DVec3::Y),
     )
     .add(
-        Blob::cone([v(0.105, 0.034, 0.1), v(0.106, 0.028, 0.15)], [0.042, 0.036])
-            .cut(floor, -DVec3::Y)
-            .blend(0.01),
+        Blob::cone(
+            [v(0.105, 0.034, 0.1), v(0.106, 0.028, 0.15)],
+            [0.042, 0.036],
+        )
+        .cut(floor, -DVec3::Y)
+        .blend(0.01),
     )
     .add(
-        Blob::cone([v(0.098, 0.06, -0.028), v(0.098, 0.16, -0.024)], [0.046, 0.044])
-            .cut(v(0.0, 0.118, 0.0), v(0.0, 1.0, -0.2))
-            .blend(0.04),
+        Blob::cone(
+            [v(0.098, 0.06, -0.028), v(0.098, 0.16, -0.024)],
+            [0.046, 0.044],
+        )
+        .cut(v(0.0, 0.118, 0.0), v(0.0, 1.0, -0.2))
+        .blend(0.04),
     );
     f
 }
 
 fn left_sole() -> Field {
     let mut f = Field::default();
-    let (heel, ball, toe) = (v(0.098, 0.013, -0.042), v(0.107, 0.013, 0.1), v(0.107, 0.013, 0.148));
+    let (heel, ball, toe) = (
+        v(0.098, 0.013, -0.042),
+        v(0.107, 0.013, 0.1),
+        v(0.107, 0.013, 0.148),
+    );
     f.add(Blob::cone([heel, ball], [0.045, 0.0465]).squash(DVec3::Y, 0.28))
-        .add(Blob::cone([ball, toe], [0.0465, 0.04]).squash(DVec3::Y, 0.29).blend(0.01));
+        .add(
+            Blob::cone([ball, toe], [0.0465, 0.04])
+                .squash(DVec3::Y, 0.29)
+                .blend(0.01),
+        );
     f
 }
 
@@ -182,13 +220,26 @@ fn face() -> Vec<Shell> {
 pub fn shells() -> Vec<Shell> {
     let both = |one: Shell| [one.mirrored(), one];
     let (_, elbow, wrist, _) = arm();
-    let arm = [v(0.19, wrist.y - 0.03, -0.1), v(wrist.x + 0.03, elbow.y + 0.18, 0.06)];
+    let arm = [
+        v(0.19, wrist.y - 0.03, -0.1),
+        v(wrist.x + 0.03, elbow.y + 0.18, 0.06),
+    ];
     let hand = [wrist - v(0.06, 0.18, 0.06), wrist + v(0.17, 0.06, 0.13)];
     let mut all = vec![
         shell(&head(), middle(0.112, 1.34, 1.83, -0.14, 0.15), 0.019, SKIN),
         shell(&hair(), middle(0.112, 1.56, 1.84, -0.15, 0.13), 0.02, HAIR),
-        shell(&shirt(), middle(0.416, 0.85, 1.55, -0.18, 0.18), 0.035, SHIRT),
-        shell(&trousers(), middle(0.208, 0.04, 1.09, -0.17, 0.15), 0.035, TROUSERS),
+        shell(
+            &shirt(),
+            middle(0.416, 0.85, 1.55, -0.18, 0.18),
+            0.035,
+            SHIRT,
+        ),
+        shell(
+            &trousers(),
+            middle(0.208, 0.04, 1.09, -0.17, 0.15),
+            0.035,
+            TROUSERS,
+        ),
     ];
     all.extend(both(shell(&left_arm(), arm, 0.022, SKIN)));
     all.extend(both(shell(&left_hand(), hand, 0.0115, SKIN)));

@@ -88,8 +88,18 @@ pub fn skeleton() -> Skeleton {
         add("UpperArm", "Shoulder", shoulder, elbow);
         add("LowerArm", "UpperArm", elbow, wrist);
         add("Hand", "LowerArm", wrist, hand(0.09, 0.0, 0.0));
-        add("Fingers", "Hand", hand(0.09, 0.0, 0.0), hand(0.18, 0.0, 0.0));
-        add("Thumb", "Hand", hand(0.03, 0.028, 0.004), hand(0.085, 0.06, 0.008));
+        add(
+            "Fingers",
+            "Hand",
+            hand(0.09, 0.0, 0.0),
+            hand(0.18, 0.0, 0.0),
+        );
+        add(
+            "Thumb",
+            "Hand",
+            hand(0.03, 0.028, 0.004),
+            hand(0.085, 0.06, 0.008),
+        );
         add("UpperLeg", "hips", at::HIP, at::KNEE);
         add("LowerLeg", "UpperLeg", at::KNEE, at::ANKLE);
         add("Foot", "LowerLeg", at::ANKLE, at::BALL);
@@ -114,7 +124,7 @@ pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
             point,
             normal,
             half,
-            side: leg.then_some(0.02),
+            side: leg.then_some(0.04),
             wing,
         });
     };
@@ -122,8 +132,18 @@ pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
     gate("spine", at::SPINE, up, 0.06);
     gate("chest", at::CHEST, up, 0.06);
     gate("upperChest", at::UPPER_CHEST, up, 0.06);
-    gate("neck", at::NECK + up * 0.01, DVec3::new(0.0, 1.0, 0.3), 0.035);
-    gate("head", at::HEAD + up * 0.005, DVec3::new(0.0, 1.0, -0.4), 0.03);
+    gate(
+        "neck",
+        at::NECK + up * 0.01,
+        DVec3::new(0.0, 1.0, 0.3),
+        0.035,
+    );
+    gate(
+        "head",
+        at::HEAD + up * 0.005,
+        DVec3::new(0.0, 1.0, -0.4),
+        0.03,
+    );
     let (shoulder, elbow, wrist, ahead) = arm();
     let along = (elbow - shoulder).normalize();
     let thumb = hand(0.07, 0.11, 0.0) - hand(0.03, 0.022, 0.0);
@@ -132,15 +152,35 @@ pub fn gates(skeleton: &Skeleton) -> Vec<Gate> {
         let mut gate = |name: &str, point: DVec3, normal: DVec3, half: f64| {
             gate(&format!("{side}{name}"), flip(point), flip(normal), half);
         };
-        gate("Shoulder", DVec3::new(0.095, 1.40, 0.0), DVec3::new(0.8, 0.6, 0.0), 0.06);
-        gate("UpperArm", shoulder - DVec3::X * 0.005, DVec3::new(0.95, -0.3, 0.0), 0.055);
+        gate(
+            "Shoulder",
+            DVec3::new(0.095, 1.40, 0.0),
+            DVec3::new(0.8, 0.6, 0.0),
+            0.06,
+        );
+        gate(
+            "UpperArm",
+            shoulder - DVec3::X * 0.005,
+            DVec3::new(0.95, -0.3, 0.0),
+            0.055,
+        );
         gate("LowerArm", elbow, (along + ahead).normalize(), 0.045);
         gate("Hand", wrist, ahead, 0.028);
         gate("Fingers", hand(0.09, 0.0, 0.0), ahead, 0.02);
         gate("Thumb", hand(0.04, 0.032, 0.0), thumb, 0.014);
-        gate("UpperLeg", at::HIP - up * 0.03, DVec3::new(0.25, -1.0, 0.0), 0.075);
+        gate(
+            "UpperLeg",
+            at::HIP - up * 0.03,
+            DVec3::new(0.25, -1.0, 0.0),
+            0.075,
+        );
         gate("LowerLeg", at::KNEE, -up, 0.06);
-        gate("Foot", at::ANKLE + up * 0.01, DVec3::new(0.0, -1.0, 0.35), 0.03);
+        gate(
+            "Foot",
+            at::ANKLE + up * 0.01,
+            DVec3::new(0.0, -1.0, 0.35),
+            0.03,
+        );
         gate("Toes", at::BALL, DVec3::Z, 0.022);
     }
     gates

@@ -74,14 +74,14 @@ pub const WALK: Gait = Gait {
 pub const RUN: Gait = Gait {
     name: "run",
     rate: 60.0,
-    speed: 3.6,
-    cycle: 0.7,
+    speed: 3.3,
+    cycle: 0.72,
     duty: 0.3,
-    strike: 0.265,
+    strike: 0.24,
     width: 0.055,
-    roll: [4.0, 52.0],
+    roll: [0.0, 52.0],
     flat: 0.36,
-    lift: 0.27,
+    lift: 0.25,
     clear: 0.45,
     hips: [0.92, 0.028],
     carry: 0.15,
@@ -143,16 +143,8 @@ impl Gait {
         let bump = self.lift * 16.0 * w * w * rest * rest
             + self.clear * w * rest * (rest * rest * rest * rest + 0.7 * w * w * w * w);
         let path = mix(|leg| leg.ankle.y);
-        leg.ankle = DVec3::new(
-            mix(|leg| leg.ankle.x),
-            path + bump,
-            mix(|leg| leg.ankle.z),
-        );
-        leg.foot[0] = hermite(
-            [off.foot[0], on.foot[0]],
-            [0.0, 0.0],
-            ease(w),
-        );
+        leg.ankle = DVec3::new(mix(|leg| leg.ankle.x), path + bump, mix(|leg| leg.ankle.z));
+        leg.foot[0] = hermite([off.foot[0], on.foot[0]], [0.0, 0.0], ease(w));
         leg.toes = off.toes * (1.0 - ease(w / 0.4));
         leg
     }

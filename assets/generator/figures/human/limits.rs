@@ -51,8 +51,20 @@ fn cones() -> Vec<Cone> {
         neck("head"),
         cone("Shoulder", x, about(z, 10.0), [(z, 25.0), (y, 15.0)], 1.0),
         cone("UpperArm", -y, ahead, [(x, 100.0), (z, 100.0)], 90.0),
-        cone("Hand", hand, still, [(back, 75.0), (super::bones::palm(), 30.0)], 1.0),
-        cone("UpperLeg", -y, about(x, -45.0), [(x, 75.0), (z, 40.0)], 45.0),
+        cone(
+            "Hand",
+            hand,
+            still,
+            [(back, 75.0), (super::bones::palm(), 30.0)],
+            1.0,
+        ),
+        cone(
+            "UpperLeg",
+            -y,
+            about(x, -45.0),
+            [(x, 75.0), (z, 40.0)],
+            45.0,
+        ),
         cone("Foot", -y, about(x, 15.0), [(x, 35.0), (z, 25.0)], 10.0),
     ]
 }

@@ -296,4 +296,3 @@ impl Leg {
         self.ankle = ankle + flat * pivot - self.foot_turn() * pivot;
     }
 }
-
