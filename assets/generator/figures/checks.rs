@@ -7,9 +7,9 @@ use bevy::math::{DVec3, Mat4, Quat, Vec3};
 use super::{
     Figure, all,
     clip::Clip,
-    encode,
-    human::{bones::at, gait, limits},
-    skeleton::{Pose, Skeleton},
+    dog, encode,
+    human::{bones::at, limits},
+    skeleton::Pose,
     skin,
 };
 
@@ -206,19 +206,18 @@ fn no_clip_of_the_human_leaves_the_limits_of_its_joints() {
     }
 }
 
-/// How far the left foot slides over the ground in a cycle, metres: heel and ball, whichever of
-/// those that are down slides less, for the other rolls off it.
-fn slip(skeleton: &Skeleton, clip: &Clip) -> f64 {
-    let ball = DVec3::new(at::BALL.x, 0.0, at::BALL.z);
-    let spots = [("leftFoot", at::HEEL), ("leftToes", ball)];
+/// How far a foot slides over the ground in a cycle, metres: of its spots that are down the one
+/// that slides least, for the others roll off it.
+fn slip(figure: &Figure, clip: &Clip, spots: &[(&str, DVec3)]) -> f64 {
     let steps = 400;
     let spots = |part: f64| {
         let pose = between(clip, part);
-        spots.map(|(bone, spot)| {
-            let bone = skeleton.find(bone);
-            pose.place(skeleton, bone)
-                .carry(&skeleton.bones[bone], spot)
-        })
+        let at = |&(bone, spot): &(&str, DVec3)| {
+            let bone = figure.skeleton.find(bone);
+            let place = pose.place(&figure.skeleton, bone);
+            place.carry(&figure.skeleton.bones[bone], spot)
+        };
+        spots.iter().map(at).collect::<Vec<_>>()
     };
     let ground = clip.speed * clip.duration / f64::from(steps);
     let part = |i: i32| f64::from(i) / f64::from(steps);
@@ -237,15 +236,29 @@ fn slip(skeleton: &Skeleton, clip: &Clip) -> f64 {
 
 #[test]
 fn feet_that_are_down_do_not_slide_over_the_ground_that_passes() {
-    let human = super::human::figure();
-    for gait in [gait::WALK, gait::RUN] {
-        let clip = clip(&human, gait.name);
-        let slides = slip(&human.skeleton, clip);
-        assert!(slides < 0.03, "{}: {slides} m", gait.name);
+    let floor = |p: DVec3| DVec3::new(p.x, 0.0, p.z);
+    let (human, dog) = (super::human::figure(), dog::figure());
+    let foot = [("leftFoot", at::HEEL), ("leftToes", floor(at::BALL))];
+    let front = floor(dog::bones::at::FRONT[4]);
+    let back = floor(dog::bones::at::BACK[3]);
+    for (figure, name, spots) in [
+        (&human, "walk", &foot[..]),
+        (&human, "run", &foot[..]),
+        (&dog, "walk", &[("leftFrontToes", front)][..]),
+        (
+            &dog,
+            "walk",
+            &[("rightBackToes", back * DVec3::new(-1.0, 1.0, 1.0))][..],
+        ),
+        (&dog, "trot", &[("leftBackToes", back)][..]),
+    ] {
+        let clip = clip(figure, name);
+        let slides = slip(figure, clip, spots);
+        assert!(slides < 0.03, "{} {name}: {slides} m", figure.name);
         let mut lazy = clip.clone();
         lazy.speed *= 0.8;
-        let faulty = slip(&human.skeleton, &lazy);
-        assert!(faulty > 0.08, "a wrong speed is seen: {faulty} m");
+        let faulty = slip(figure, &lazy, spots);
+        assert!(faulty > 0.06, "a wrong speed is seen: {faulty} m");
     }
 }
 

@@ -27,6 +27,13 @@ pub fn hill(t: f64) -> f64 {
     }
 }
 
+/// Steep at both ends of 0..1 and next to nothing between: keeps a sole that has left the ground, or
+/// is about to come down, from grazing it.
+pub fn clear(t: f64) -> f64 {
+    let (a, b) = (t * t, (1.0 - t) * (1.0 - t));
+    t * (1.0 - t) * (b * b + 0.8 * a * a)
+}
+
 /// Cubic from a value and slope at 0 to a value and slope at 1.
 pub fn hermite([p, q]: [f64; 2], [u, v]: [f64; 2], t: f64) -> f64 {
     let (t2, t3) = (t * t, t * t * t);

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::figures::{
     clip::Clip,
-    curve::{ease, hermite, hill, keys, wave},
+    curve::{clear, ease, hermite, hill, keys, wave},
     skeleton::Skeleton,
 };
 
@@ -82,7 +82,7 @@ impl Gait {
         let (off, on) = (ground(self.duty), ground(0.0));
         let slope = -travel * air;
         let bump = 16.0 * w * w * (1.0 - w) * (1.0 - w);
-        let rise = 0.25 * w * (1.0 - w) * ((1.0 - w).powi(4) + w.powi(4));
+        let rise = 0.25 * clear(w);
         // The foot folds back as the leg comes forwards.
         let fold = if front { 50.0 } else { 16.0 };
         Leg {

@@ -1,7 +1,7 @@
 //! A dog of 0.58 m at the shoulders.
 
 mod body;
-mod bones;
+pub mod bones;
 mod clips;
 mod pose;
 

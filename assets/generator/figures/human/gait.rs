@@ -8,7 +8,7 @@ use super::{
 };
 use crate::figures::{
     clip::Clip,
-    curve::{ease, hermite, keys, wave},
+    curve::{clear, ease, hermite, keys, wave},
     skeleton::Skeleton,
 };
 
@@ -138,10 +138,8 @@ impl Gait {
             hermite([value(&off), value(&on)], slopes, w)
         };
         let mut leg = on.clone();
-        // Level at both ends, but for the last that keeps a sole that is off from grazing.
         let rest = 1.0 - w;
-        let bump = self.lift * 16.0 * w * w * rest * rest
-            + self.clear * w * rest * (rest * rest * rest * rest + 0.7 * w * w * w * w);
+        let bump = self.lift * 16.0 * w * w * rest * rest + self.clear * clear(w);
         let path = mix(|leg| leg.ankle.y);
         leg.ankle = DVec3::new(mix(|leg| leg.ankle.x), path + bump, mix(|leg| leg.ankle.z));
         leg.foot[0] = hermite([off.foot[0], on.foot[0]], [0.0, 0.0], ease(w));
