@@ -9,7 +9,7 @@ use super::{
     clip::Clip,
     dog, encode,
     human::{bones::at, limits},
-    skeleton::Pose,
+    skeleton::{Bone, Place, Pose},
     skin,
 };
 
@@ -42,6 +42,11 @@ fn clip<'a>(figure: &'a Figure, name: &str) -> &'a Clip {
     found.expect("the clip is there")
 }
 
+/// Where a point of the bind pose goes that is rigidly tied to a bone.
+fn carry(place: Place, bone: &Bone, point: DVec3) -> DVec3 {
+    place.at + place.turn * (point - bone.head)
+}
+
 /// Where the skin is in a pose.
 fn skinned(figure: &Figure, pose: &Pose, held: &[(DVec3, skin::Weights)]) -> Vec<DVec3> {
     let bones = &figure.skeleton.bones;
@@ -54,7 +59,7 @@ fn skinned(figure: &Figure, pose: &Pose, held: &[(DVec3, skin::Weights)]) -> Vec
                 .iter()
                 .map(|&(bone, weight)| {
                     let bone = usize::from(bone);
-                    places[bone].carry(&bones[bone], *point) * (f64::from(weight) / 255.0)
+                    carry(places[bone], &bones[bone], *point) * (f64::from(weight) / 255.0)
                 })
                 .sum()
         })
@@ -215,7 +220,7 @@ fn slip(figure: &Figure, clip: &Clip, spots: &[(&str, DVec3)]) -> f64 {
         let at = |&(bone, spot): &(&str, DVec3)| {
             let bone = figure.skeleton.find(bone);
             let place = pose.place(&figure.skeleton, bone);
-            place.carry(&figure.skeleton.bones[bone], spot)
+            carry(place, &figure.skeleton.bones[bone], spot)
         };
         spots.iter().map(at).collect::<Vec<_>>()
     };

@@ -72,13 +72,6 @@ pub struct Place {
     pub turn: DQuat,
 }
 
-impl Place {
-    /// Where a point of the bind pose goes that is rigidly tied to the bone.
-    pub fn carry(&self, bone: &Bone, point: DVec3) -> DVec3 {
-        self.at + self.turn * (point - bone.head)
-    }
-}
-
 impl Pose {
     pub fn bind(skeleton: &Skeleton) -> Self {
         Self {
