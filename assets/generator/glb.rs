@@ -12,24 +12,24 @@ use crate::{
     paint::Paint,
 };
 
-const FLOAT: u32 = 5126;
-const BYTE: u32 = 5121;
-const SHORT: u32 = 5123;
+pub const FLOAT: u32 = 5126;
+pub const BYTE: u32 = 5121;
+pub const SHORT: u32 = 5123;
 const INT: u32 = 5125;
-const ARRAY: u32 = 34962;
-const ELEMENTS: u32 = 34963;
+pub const ARRAY: u32 = 34962;
+pub const ELEMENTS: u32 = 34963;
 
 /// The buffer and what lies where in it.
 #[derive(Default)]
-struct Buffer {
-    bytes: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
+pub struct Buffer {
+    pub bytes: Vec<u8>,
+    pub views: Vec<Value>,
+    pub accessors: Vec<Value>,
 }
 
 impl Buffer {
     /// Adds an array of its own view and returns its accessor.
-    fn add(&mut self, bytes: &[u8], target: u32, mut accessor: Value) -> usize {
+    pub fn add(&mut self, bytes: &[u8], target: u32, mut accessor: Value) -> usize {
         while !self.bytes.len().is_multiple_of(4) {
             self.bytes.push(0);
         }
@@ -45,7 +45,7 @@ impl Buffer {
         self.accessors.len() - 1
     }
 
-    fn vectors(&mut self, vectors: &[Vec3], bounds: bool) -> usize {
+    pub fn vectors(&mut self, vectors: &[Vec3], bounds: bool) -> usize {
         let bytes: Vec<u8> = vectors
             .iter()
             .flat_map(Vec3::to_array)
@@ -178,9 +178,13 @@ pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
         "bufferViews": buffer.views,
         "buffers": [{ "byteLength": buffer.bytes.len() }],
     });
-    let mut text = serde_json::to_vec(&document)?;
+    pack(&document, buffer.bytes)
+}
+
+/// The file of a document and its one buffer.
+pub fn pack(document: &Value, mut binary: Vec<u8>) -> Result<Vec<u8>, serde_json::Error> {
+    let mut text = serde_json::to_vec(document)?;
     pad(&mut text, b' ');
-    let mut binary = buffer.bytes;
     pad(&mut binary, 0);
     let length = 12 + 8 + text.len() + 8 + binary.len();
     let mut file = Vec::with_capacity(length);
@@ -196,7 +200,7 @@ pub fn encode(level: &Level) -> Result<Vec<u8>, serde_json::Error> {
 }
 
 /// Writes single-precision numbers as short as they are, 0.2 instead of 0.20000000298023224.
-fn shorten(value: &mut Value) {
+pub fn shorten(value: &mut Value) {
     match value {
         Value::Number(number) if number.is_f64() => {
             if let Some(short) = number

@@ -5,6 +5,7 @@
 //! the vehicles in their presets; what is here is how things look and what they are made of.
 
 mod driving;
+mod figures;
 mod font;
 mod glb;
 mod level;
@@ -52,8 +53,12 @@ fn build((name, fill): Asset) -> Level {
 )]
 fn main() -> ExitCode {
     let check = std::env::args().any(|argument| argument == "--check");
-    for asset in ASSETS {
-        match make(asset, check) {
+    let levels = ASSETS.into_iter().map(|asset| make(asset, check));
+    let figures = figures::all()
+        .into_iter()
+        .map(|figure| figures::make(&figure, check));
+    for made in levels.chain(figures) {
+        match made {
             Ok(line) => println!("{line}"),
             Err(line) => {
                 eprintln!("{line}");
