@@ -172,8 +172,7 @@ pub fn cabin(mesh: &mut Mesh, paint: Paint, [low, high]: [f32; 2], panes: &[Pane
         })
         .collect();
     loft(mesh, &sections, |i, strip| match (strip, panes[i].glass) {
-        (1, (true, _)) | (3, (_, true)) => Paint::Glass,
-        (2, (true, true)) => Paint::Glass,
+        (1, (true, _)) | (3, (_, true)) | (2, (true, true)) => Paint::Glass,
         _ => paint,
     });
 }

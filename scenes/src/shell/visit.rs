@@ -13,8 +13,8 @@ use super::{
 };
 use crate::{
     course::{Course, CourseNode, despawn_course, spawn_course},
-    driving::{DriveRun, drive_stations},
-    stations::{StationResult, StationRun, stations},
+    driving::{DriveRun, DriveStep, drive_stations},
+    stations::{StationResult, StationRun, Step, stations},
 };
 
 /// Below this height, metres, nothing is left to stand on.
@@ -90,9 +90,9 @@ impl Visit {
 #[derive(Resource)]
 pub(super) enum Playing {
     /// A walk, and what the walker was before.
-    Walk(StationRun, Box<(Character, CharacterMotor)>),
+    Walk(Box<StationRun>, Box<(Character, CharacterMotor)>),
     /// A drive.
-    Drive(DriveRun),
+    Drive(Box<DriveRun>),
 }
 
 impl Playing {
@@ -105,8 +105,8 @@ impl Playing {
 
     fn current(&self) -> Option<String> {
         match self {
-            Self::Walk(run, _) => run.current().map(|step| step.describe()),
-            Self::Drive(run) => run.current().map(|step| step.describe()),
+            Self::Walk(run, _) => run.current().map(Step::describe),
+            Self::Drive(run) => run.current().map(DriveStep::describe),
         }
     }
 
@@ -320,7 +320,7 @@ fn play_walk(world: &mut World, place: usize) -> Option<Playing> {
     let run = StationRun::with(world, station, walker);
     world.entity_mut(walker).insert(motor);
     look_from(world, &start);
-    Some(Playing::Walk(run, before))
+    Some(Playing::Walk(Box::new(run), before))
 }
 
 fn play_drive(world: &mut World, place: usize) -> Option<Playing> {
@@ -335,7 +335,7 @@ fn play_drive(world: &mut World, place: usize) -> Option<Playing> {
     let (vehicle, _) = garage::driver(world)?;
     let run = DriveRun::with(world, station, figures, vehicle)?;
     look_from(world, &start);
-    Some(Playing::Drive(run))
+    Some(Playing::Drive(Box::new(run)))
 }
 
 /// Plays one tick; at the end tells what came of it and gives the keys back.
