@@ -6,7 +6,7 @@ mod hierarchy;
 pub(crate) mod setup;
 pub(crate) mod teleport;
 
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
@@ -14,35 +14,37 @@ pub(crate) mod teleport;
 pub(crate) mod activity;
 #[cfg(feature = "character")]
 pub(crate) mod collider;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod forces;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 pub(crate) mod motion;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod neighbourhood;
+#[cfg(feature = "ragdoll")]
+pub(crate) mod joints;
 #[cfg(feature = "vehicle")]
 pub(crate) mod probe;
 #[cfg(feature = "vehicle")]
 pub(crate) mod rigid;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
 mod search_tree;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod world;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 pub(crate) mod world_mut;
