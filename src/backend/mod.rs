@@ -20,6 +20,8 @@ pub(crate) mod collider;
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod forces;
+#[cfg(feature = "ragdoll")]
+pub(crate) mod joints;
 #[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 pub(crate) mod motion;
 #[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
@@ -28,8 +30,6 @@ pub(crate) mod motion;
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod neighbourhood;
-#[cfg(feature = "ragdoll")]
-pub(crate) mod joints;
 #[cfg(feature = "vehicle")]
 pub(crate) mod probe;
 #[cfg(feature = "vehicle")]

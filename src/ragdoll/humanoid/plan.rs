@@ -228,7 +228,12 @@ mod tests {
     #[test]
     fn knees_bend_backward_and_elbows_forward() {
         let profile = RagdollProfile::humanoid(HumanoidDetail::Bodies19, 1.75);
-        for (name, sign) in [("shin_l", 1.0), ("shin_r", 1.0), ("forearm_l", -1.0), ("forearm_r", -1.0f32)] {
+        for (name, sign) in [
+            ("shin_l", 1.0),
+            ("shin_r", 1.0),
+            ("forearm_l", -1.0),
+            ("forearm_r", -1.0f32),
+        ] {
             let bone = profile.bone(name).unwrap();
             let JointKind::Hinge { min, max } = bone.joint.kind else {
                 panic!("{name} is no hinge");

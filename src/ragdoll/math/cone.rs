@@ -74,10 +74,7 @@ impl EllipticCone {
             let next = (way * (radius / length) + evolute) / self.semi;
             t = next.clamp(Vec2::ZERO, Vec2::ONE).normalize_or(t);
         }
-        Vec2::new(
-            (t.x * a).copysign(p.x),
-            (t.y * b).copysign(p.y),
-        )
+        Vec2::new((t.x * a).copysign(p.x), (t.y * b).copysign(p.y))
     }
 
     /// Angle to the boundary, radians: positive outside.
@@ -140,7 +137,13 @@ mod tests {
 
     #[test]
     fn the_nearest_boundary_point_is_the_nearest_of_ten_thousand() {
-        for (y, z) in [(45.0, 45.0), (75.0, 30.0), (12.0, 22.0), (100.0, 100.0), (2.0, 40.0)] {
+        for (y, z) in [
+            (45.0, 45.0),
+            (75.0, 30.0),
+            (12.0, 22.0),
+            (100.0, 100.0),
+            (2.0, 40.0),
+        ] {
             let cone = cone(y, z);
             for i in 0..60 {
                 let f = |k: i32| ((i * k) % 29) as f32 / 14.0 - 1.0;
@@ -173,7 +176,13 @@ mod tests {
 
     #[test]
     fn the_touching_cone_touches_and_stays_within() {
-        for (y, z) in [(75.0, 30.0), (22.0, 12.0), (60.0, 50.0), (30.0, 100.0), (50.0, 50.0)] {
+        for (y, z) in [
+            (75.0, 30.0),
+            (22.0, 12.0),
+            (60.0, 50.0),
+            (30.0, 100.0),
+            (50.0, 50.0),
+        ] {
             let cone = cone(y, z);
             for i in 0..40 {
                 let (sin, cos) = ops::sin_cos(i as f32 * 0.157);

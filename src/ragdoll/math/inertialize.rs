@@ -93,8 +93,7 @@ impl PoseOffset {
         let rate = rest * rest * s * self.duration;
         (
             position + self.position * value + self.velocity * rate,
-            (from_rotation_vector(self.rotation * value + self.spin * rate) * rotation)
-                .normalize(),
+            (from_rotation_vector(self.rotation * value + self.spin * rate) * rotation).normalize(),
         )
     }
 }

@@ -50,11 +50,4 @@ impl BoneMass {
             gyration: Vec3::new(shape.gyration().min_element(), across, across),
         }
     }
-
-    /// Inertia tensor about the centre in the bone's axes, kg·m².
-    pub(crate) fn inertia(&self, mass: f32) -> Mat3 {
-        let axes = Mat3::from_quat(self.axes);
-        let g = self.gyration * self.gyration * mass;
-        axes * Mat3::from_diagonal(g) * axes.transpose()
-    }
 }
