@@ -20,7 +20,7 @@ pub mod interpolation;
 mod math;
 mod schedule;
 mod teleport;
-#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
+#[cfg(any(feature = "character", feature = "vehicle"))]
 mod validate;
 
 #[cfg(feature = "character")]

@@ -15,6 +15,7 @@ mod humanoid;
 mod intent;
 mod limits;
 mod math;
+mod names;
 mod plan;
 mod pose;
 mod prepare;
@@ -39,6 +40,7 @@ pub use config::{Ragdoll, RagdollDrive};
 pub use humanoid::{BodyPart, HumanoidDetail, HumanoidRig};
 pub use intent::{BoneControl, RagdollIntent, RagdollMode};
 pub use math::inertialize::PoseOffset;
+pub use names::{NameMap, SkeletonBone, SkeletonMatch};
 pub use pose::{BonePose, BoneSource, RagdollPose};
 pub use profile::{
     BoneMass, BoneProfile, BoneShape, JointKind, JointProfile, JointSoftness, RagdollProfile,
