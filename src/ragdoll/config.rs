@@ -28,8 +28,8 @@ pub struct Ragdoll {
     pub profile: RagdollProfile,
     /// Kilograms, above 0.
     pub mass: f32,
-    /// How far masses and inertias are evened out for the solver, `0..=1`: 0 are those of anatomy,
-    /// 1 the stablest, with hands as heavy as a fifth of a thigh is light. The whole keeps its mass.
+    /// How far masses and inertias are evened out for the solver, `0..=1`: 0 are those of anatomy; 1 is
+    /// the stablest, with hands several times as heavy as real ones. The whole keeps its mass.
     pub conditioning: f32,
     /// How it is driven to a pose.
     pub drive: RagdollDrive,

@@ -10,7 +10,7 @@ use super::{
     pose::{BonePose, BoneSource, RagdollPose},
     prepare::wanted,
     state::{BoneBody, RagdollState},
-    tick::{self, BoneForce, Carried, Slot},
+    tick::{self, BoneForce, Carried, Slot, Way},
 };
 use crate::backend::{
     handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
@@ -129,6 +129,7 @@ pub(super) fn drive(
     )>,
     mut bones: Query<(TiedBone, &BoneControl, Option<&BoneSource>)>,
     mut slots: Local<Vec<Option<Slot>>>,
+    mut ways: Local<Vec<Option<Way>>>,
     mut carried: Local<Vec<Carried>>,
 ) {
     forces.0.clear();
@@ -199,10 +200,13 @@ pub(super) fn drive(
             RagdollMode::GettingUp => state.rise_time,
             _ => config.fade,
         };
+        ways.clear();
         for (i, slot) in slots.iter().enumerate() {
-            if let Some(slot) = slot {
-                tick::change_over(&mut worlds, slot, &mut state.bones[i], fade, dt);
-            }
+            let way = slot.as_ref().map(|slot| {
+                let parent = plan.bones[i].parent.and_then(|p| ways[p].as_ref());
+                tick::change_over(&mut worlds, slot, parent, &mut state.bones[i], fade, dt)
+            });
+            ways.push(way);
         }
         if !awake {
             continue;

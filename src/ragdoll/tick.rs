@@ -53,53 +53,74 @@ pub(super) struct BoneForce {
     pub torque: Vec3,
 }
 
+/// Where a bone was and how it moved before this tick, and where it is sent.
+#[derive(Clone, Copy)]
+pub(super) struct Way {
+    was: Moving,
+    sent: BonePose,
+    /// Whether it follows the pose.
+    follows: bool,
+    target: BonePose,
+    before: BonePose,
+}
+
+/// The pose asked for, where the bone that bears it is elsewhere than asked: at its joint.
+fn borne_by(parent: BonePose, asked_parent: &BonePose, asked: &BonePose) -> Vec3 {
+    let arm = asked_parent.rotation.inverse() * (asked.position - asked_parent.position);
+    parent.position + parent.rotation * arm
+}
+
 /// Makes of a bone what it is from this tick on, with the place and velocity that it had.
 pub(super) fn change_over(
     worlds: &mut JointWorlds,
     slot: &Slot,
+    parent: Option<&Way>,
     state: &mut BoneState,
     fade: f32,
     dt: f32,
-) {
+) -> Way {
     let (old, new) = (state.body, slot.body);
-    let first = state.target.is_none();
-    if first {
+    if state.target.is_none() {
         state.place = slot.before;
     }
-    let leaves_physics = matches!(old, BoneBody::Dynamic | BoneBody::Fixed)
-        && matches!(new, BoneBody::Kinematic | BoneBody::Off);
-    if leaves_physics && !first {
-        let from = Moving {
-            position: state.place.position,
-            rotation: state.place.rotation,
-            velocity: state.velocity,
-            spin: state.spin,
-        };
-        let to = Moving {
-            position: slot.before.position,
-            rotation: slot.before.rotation,
-            velocity: (slot.target.position - slot.before.position) / dt,
-            spin: angular_velocity(slot.before.rotation, slot.target.rotation, dt),
-        };
+    let was = Moving {
+        position: state.place.position,
+        rotation: state.place.rotation,
+        velocity: state.velocity,
+        spin: state.spin,
+    };
+    let in_pose = |body: BoneBody| matches!(body, BoneBody::Off | BoneBody::Kinematic);
+    let parent = parent.filter(|p| p.follows);
+    let leaves_physics = !in_pose(old) && in_pose(new);
+    // Counted from something else than before, what is left of an offset begins anew.
+    let rebased = in_pose(old) && in_pose(new) && state.borne != parent.is_some();
+    if state.target.is_some() && (leaves_physics || (rebased && !state.offset.is_over())) {
+        let to = followed(slot, parent, dt);
+        let left = state.offset.duration - state.offset.age;
+        let fade = if leaves_physics { fade } else { left };
         state.offset = if fade > 0.0 {
-            PoseOffset::between(&from, &to, fade)
+            PoseOffset::between(&was, &to, fade)
         } else {
             PoseOffset::default()
         };
     }
+    state.borne = parent.is_some();
     // Where it would be if it followed the pose.
-    let follows = matches!(old, BoneBody::Off | BoneBody::Kinematic)
-        || matches!(new, BoneBody::Off | BoneBody::Kinematic);
     let mut sent = state.place;
-    if follows {
+    if in_pose(old) || in_pose(new) {
         state.offset.advance(dt);
-        let (position, rotation) = (state.offset).apply(slot.target.position, slot.target.rotation);
+        let base = match parent {
+            Some(p) => borne_by(p.sent, &p.target, &slot.target),
+            None => slot.target.position,
+        };
+        let (position, rotation) = state.offset.apply(base, slot.target.rotation);
         sent = BonePose { position, rotation };
     }
     let velocity = (sent.position - state.place.position) / dt;
     let spin = angular_velocity(state.place.rotation, sent.rotation, dt);
-    let place = (state.place.position, state.place.rotation);
+    let place = Some((state.place.position, state.place.rotation));
     let was_off = old == BoneBody::Off;
+    let (link, handle) = (&slot.link, &slot.handle);
     match new {
         BoneBody::Off => {
             state.place = sent;
@@ -108,35 +129,54 @@ pub(super) fn change_over(
         }
         BoneBody::Kinematic => {
             if was_off {
-                worlds.place(
-                    &slot.link,
-                    &slot.handle,
-                    Some(place),
-                    Vec3::ZERO,
-                    Vec3::ZERO,
-                );
+                worlds.place(link, handle, place, Vec3::ZERO, Vec3::ZERO);
             }
-            worlds.send(&slot.link, &slot.handle, sent.position, sent.rotation);
+            worlds.send(link, handle, sent.position, sent.rotation);
         }
-        BoneBody::Dynamic if was_off || old == BoneBody::Kinematic => {
-            let from = was_off.then_some(place);
-            worlds.place(&slot.link, &slot.handle, from, velocity, spin);
+        BoneBody::Dynamic if in_pose(old) => {
+            let from = place.filter(|_| was_off);
+            worlds.place(link, handle, from, velocity, spin);
             state.offset = PoseOffset::default();
         }
         BoneBody::Fixed if was_off => {
-            worlds.place(
-                &slot.link,
-                &slot.handle,
-                Some(place),
-                Vec3::ZERO,
-                Vec3::ZERO,
-            );
+            worlds.place(link, handle, place, Vec3::ZERO, Vec3::ZERO);
         }
         BoneBody::Dynamic | BoneBody::Fixed => {}
     }
     state.body = new;
     state.target = Some(slot.target);
     state.strength = slot.strength;
+    Way {
+        was,
+        sent,
+        follows: in_pose(old) || in_pose(new),
+        target: slot.target,
+        before: slot.before,
+    }
+}
+
+/// How a bone would move if it were where the pose has it, on the bone that bears it.
+fn followed(slot: &Slot, parent: Option<&Way>, dt: f32) -> Moving {
+    let (now, before) = (&slot.target, &slot.before);
+    let spin = angular_velocity(before.rotation, now.rotation, dt);
+    let (position, velocity) = match parent {
+        Some(p) => {
+            let was = BonePose {
+                position: p.was.position,
+                rotation: p.was.rotation,
+            };
+            let position = borne_by(was, &p.before, before);
+            let arm = position - p.was.position;
+            (position, p.was.velocity + p.was.spin.cross(arm))
+        }
+        None => (before.position, (now.position - before.position) / dt),
+    };
+    Moving {
+        position,
+        rotation: before.rotation,
+        velocity,
+        spin,
+    }
 }
 
 /// Whether the pose that a bone is driven to moves, or is driven otherwise than before.
@@ -177,10 +217,13 @@ pub(super) fn drive(
     dt: f32,
 ) {
     let link = &slot.link;
-    if let Some(aim) = bone.aimed(parent.motion.rotation, slot.motion.rotation)
-        && let Some(joint) = ties.soft.or(ties.limit)
-    {
-        worlds.aim_cone(link, joint, aim.rotation1, aim.half_angle, Some(aim.twist));
+    if let Some(joint) = ties.soft.or(ties.limit) {
+        let (own, of) = (&slot.motion, &parent.motion);
+        let spin = own.spin - of.spin;
+        let substep = dt / worlds.substeps(link);
+        if let Some(rows) = bone.aimed(of.rotation, own.rotation, spin, substep) {
+            worlds.aim(link, joint, &rows);
+        }
     }
     let Some(joint) = ties.drive else { return };
     let f2 = bone.frames.rotation2;

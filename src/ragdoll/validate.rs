@@ -149,7 +149,7 @@ fn refuse_joint(bone: &BoneProfile) -> Option<String> {
             swing,
             center,
             twist,
-        } => cone(swing) && center.length() < PI && range(twist, 2.0 * PI),
+        } => cone(swing) && center.length() < PI && range(twist, 2.0 * PI + 1.0e-3),
         JointKind::Condyloid { swing, center } => cone(swing) && center.length() < PI,
         JointKind::Hinge { min, max } | JointKind::Pivot { min, max } => {
             range(Vec2::new(min, max), 2.0 * PI)

@@ -80,21 +80,29 @@ pub(super) fn joint(
     joint
 }
 
+/// What changes from tick to tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AimedRows {
+    /// Of the first frame.
+    pub rotation1: Quat,
+    /// Radians.
+    pub cone: Option<f32>,
+    /// Radians.
+    pub turns: [Option<[f32; 2]>; 3],
+}
+
 impl JointWorlds<'_, '_> {
-    /// Turns the frames of a cone and its twist.
-    pub fn aim_cone(
-        &mut self,
-        link: &RapierContextEntityLink,
-        joint: JointHandle,
-        rotation1: Quat,
-        half_angle: f32,
-        twist: Option<[f32; 2]>,
-    ) {
+    /// Sets the limits of a joint for a tick.
+    pub fn aim(&mut self, link: &RapierContextEntityLink, joint: JointHandle, rows: &AimedRows) {
         self.edit(link, joint, |joint| {
-            joint.local_frame1.rotation = rotation1;
-            joint.set_limits(JointAxis::AngY, [BELOW, half_angle]);
-            if let Some(twist) = twist {
-                joint.set_limits(JointAxis::AngX, twist);
+            joint.local_frame1.rotation = rows.rotation1;
+            for (axis, limits) in TURNS.into_iter().zip(rows.turns) {
+                if let Some(limits) = limits {
+                    joint.set_limits(axis, limits);
+                }
+            }
+            if let Some(half_angle) = rows.cone {
+                joint.set_limits(JointAxis::AngY, [BELOW, half_angle]);
             }
         });
     }

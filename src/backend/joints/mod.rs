@@ -23,7 +23,7 @@ use bevy_rapier3d::{
     },
 };
 
-pub(crate) use limits::{JointFrames, JointRows, RowSpring};
+pub(crate) use limits::{AimedRows, JointFrames, JointRows, RowSpring};
 pub(crate) use motors::MotorRows;
 
 /// The angular axes, in order.
@@ -84,11 +84,16 @@ impl JointWorlds<'_, '_> {
         Some((config.gravity, config.physics_pipeline_active))
     }
 
+    /// How many substeps a tick has.
+    pub fn substeps(&self, link: &RapierContextEntityLink) -> f32 {
+        self.contexts.get(link.0).map_or(4.0, |(_, _, sim, _)| {
+            sim.integration_parameters.num_solver_iterations.max(1) as f32
+        })
+    }
+
     /// Part of a tick by which its substeps look ahead on the mean.
     pub fn lead(&self, link: &RapierContextEntityLink) -> f32 {
-        let substeps = self.contexts.get(link.0).map_or(4.0, |(_, _, sim, _)| {
-            sim.integration_parameters.num_solver_iterations.max(1) as f32
-        });
+        let substeps = self.substeps(link);
         (substeps + 1.0) / (2.0 * substeps)
     }
 

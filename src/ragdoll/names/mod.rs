@@ -172,7 +172,11 @@ impl SkeletonMatch {
             let slot = &mut found[*part as usize];
             // Of more than four the lowest, the highest, and two between.
             let pick = n * (chain.len() - 1) / (parts.len() - 1).max(1);
-            let pick = if parts.len() == 1 { chain.len() - 1 } else { pick };
+            let pick = if parts.len() == 1 {
+                chain.len() - 1
+            } else {
+                pick
+            };
             *slot = slot.or(Some(chain[pick]));
         }
     }
@@ -220,7 +224,11 @@ impl SkeletonMatch {
         }
         let at = |part: BodyPart| self.bone(part).map(|b| bones[b].pose.translation);
         let feet = [BodyPart::LeftFoot, BodyPart::RightFoot].map(at);
-        let low = feet.into_iter().flatten().map(|p| p.y).fold(f32::MAX, f32::min);
+        let low = feet
+            .into_iter()
+            .flatten()
+            .map(|p| p.y)
+            .fold(f32::MAX, f32::min);
         let head = at(BodyPart::Head).unwrap_or_default();
         // Ankle and base of the skull are at 0.039 and 0.875 of the stature.
         let stature = if low < f32::MAX {

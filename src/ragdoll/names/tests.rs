@@ -28,7 +28,14 @@ fn limbs(
 ) -> Vec<(String, String, Option<BodyPart>)> {
     use BodyPart::*;
     let parts = [
-        LeftClavicle, LeftUpperArm, LeftForearm, LeftHand, LeftThigh, LeftShin, LeftFoot, LeftToes,
+        LeftClavicle,
+        LeftUpperArm,
+        LeftForearm,
+        LeftHand,
+        LeftThigh,
+        LeftShin,
+        LeftFoot,
+        LeftToes,
     ];
     let mut lines = Vec::new();
     for right in [false, true] {
@@ -45,13 +52,28 @@ fn limbs(
     lines
 }
 
-fn check(convention: &str, trunk: &[(&str, &str, Option<BodyPart>)], limbs: Vec<(String, String, Option<BodyPart>)>, merged: usize, left: usize) {
+fn check(
+    convention: &str,
+    trunk: &[(&str, &str, Option<BodyPart>)],
+    limbs: Vec<(String, String, Option<BodyPart>)>,
+    merged: usize,
+    left: usize,
+) {
     let mut lines: Vec<(&str, &str, Option<BodyPart>)> = trunk.to_vec();
-    lines.extend(limbs.iter().map(|(n, p, part)| (n.as_str(), p.as_str(), *part)));
+    lines.extend(
+        limbs
+            .iter()
+            .map(|(n, p, part)| (n.as_str(), p.as_str(), *part)),
+    );
     let bones = skeleton(&lines);
     let found = SkeletonMatch::find(&bones, &NameMap::default());
     for (part, bone) in &found.matched {
-        assert_eq!(lines[*bone].2, Some(*part), "{convention}: {}", lines[*bone].0);
+        assert_eq!(
+            lines[*bone].2,
+            Some(*part),
+            "{convention}: {}",
+            lines[*bone].0
+        );
     }
     let meant = lines.iter().filter(|l| l.2.is_some()).count();
     assert_eq!(found.matched.len(), meant, "{convention}: {found:?}");
@@ -59,15 +81,24 @@ fn check(convention: &str, trunk: &[(&str, &str, Option<BodyPart>)], limbs: Vec<
     assert_eq!(found.left.len(), left, "{convention}: {found:?}");
     let detail = found.detail().unwrap();
     let rig = found.rig(&bones).unwrap();
-    assert!((rig.stature - 1.8).abs() < 0.01, "{convention}: {}", rig.stature);
+    assert!(
+        (rig.stature - 1.8).abs() < 0.01,
+        "{convention}: {}",
+        rig.stature
+    );
     let profile = RagdollProfile::of_rig(detail, &rig);
-    assert_eq!(crate::ragdoll::validate::refuse_profile(&profile), None, "{convention}");
+    assert_eq!(
+        crate::ragdoll::validate::refuse_profile(&profile),
+        None,
+        "{convention}"
+    );
 }
 
 #[test]
 fn skeletons_of_known_conventions_are_matched_whole() {
     use BodyPart::*;
-    let mixamo = |n: &str, right: bool| format!("mixamorig:{}{n}", if right { "Right" } else { "Left" });
+    let mixamo =
+        |n: &str, right: bool| format!("mixamorig:{}{n}", if right { "Right" } else { "Left" });
     check(
         "Mixamo",
         &[
@@ -79,7 +110,14 @@ fn skeletons_of_known_conventions_are_matched_whole() {
             ("mixamorig:Head", "mixamorig:Neck", Some(Head)),
             ("mixamorig:HeadTop_End", "mixamorig:Head", None),
         ],
-        limbs(mixamo, "mixamorig:Spine2", "mixamorig:Hips", ["Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase"]),
+        limbs(
+            mixamo,
+            "mixamorig:Spine2",
+            "mixamorig:Hips",
+            [
+                "Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot", "ToeBase",
+            ],
+        ),
         1,
         0,
     );
@@ -95,7 +133,14 @@ fn skeletons_of_known_conventions_are_matched_whole() {
             ("neck", "upperChest", Some(Neck)),
             ("head", "neck", Some(Head)),
         ],
-        limbs(vrm, "upperChest", "hips", ["Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes"]),
+        limbs(
+            vrm,
+            "upperChest",
+            "hips",
+            [
+                "Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot", "Toes",
+            ],
+        ),
         0,
         1,
     );
@@ -111,7 +156,14 @@ fn skeletons_of_known_conventions_are_matched_whole() {
             ("neck_01", "spine_03", Some(Neck)),
             ("head", "neck_01", Some(Head)),
         ],
-        limbs(unreal, "spine_03", "pelvis", ["clavicle", "upperarm", "lowerarm", "hand", "thigh", "calf", "foot", "ball"]),
+        limbs(
+            unreal,
+            "spine_03",
+            "pelvis",
+            [
+                "clavicle", "upperarm", "lowerarm", "hand", "thigh", "calf", "foot", "ball",
+            ],
+        ),
         0,
         1,
     );
@@ -127,7 +179,21 @@ fn skeletons_of_known_conventions_are_matched_whole() {
             ("DEF-spine.005", "DEF-spine.004", None),
             ("DEF-spine.006", "DEF-spine.005", Some(Head)),
         ],
-        limbs(rigify, "DEF-spine.003", "DEF-spine", ["shoulder", "upper_arm", "forearm", "hand", "thigh", "shin", "foot", "toe"]),
+        limbs(
+            rigify,
+            "DEF-spine.003",
+            "DEF-spine",
+            [
+                "shoulder",
+                "upper_arm",
+                "forearm",
+                "hand",
+                "thigh",
+                "shin",
+                "foot",
+                "toe",
+            ],
+        ),
         1,
         0,
     );
@@ -142,7 +208,21 @@ fn skeletons_of_known_conventions_are_matched_whole() {
             ("Head", "Neck", Some(Head)),
             ("Hair", "Head", None),
         ],
-        limbs(plain, "Chest", "Pelvis", ["Collarbone", "Upper Arm", "Forearm", "Hand", "Thigh", "Shin", "Foot", "Toes"]),
+        limbs(
+            plain,
+            "Chest",
+            "Pelvis",
+            [
+                "Collarbone",
+                "Upper Arm",
+                "Forearm",
+                "Hand",
+                "Thigh",
+                "Shin",
+                "Foot",
+                "Toes",
+            ],
+        ),
         1,
         0,
     );

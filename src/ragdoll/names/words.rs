@@ -13,8 +13,20 @@ pub(super) struct Words {
 
 /// Words that tools put before or into every name.
 const NOISE: [&str; 14] = [
-    "mixamorig", "mixamo", "bip", "bip01", "bip001", "biped", "def", "j", "c", "rig", "armature",
-    "jnt", "joint", "bone",
+    "mixamorig",
+    "mixamo",
+    "bip",
+    "bip01",
+    "bip001",
+    "biped",
+    "def",
+    "j",
+    "c",
+    "rig",
+    "armature",
+    "jnt",
+    "joint",
+    "bone",
 ];
 
 /// Splits at everything that is no letter, at digits, and where a small letter meets a capital one.

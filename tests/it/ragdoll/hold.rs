@@ -25,11 +25,13 @@ fn errors(sim: &Sim, ragdoll: Entity) -> (f32, f32) {
 fn held(hz: f64, change: impl FnOnce(&mut Ragdoll)) -> (Sim, Entity) {
     let mut sim = Sim::new(hz);
     let profile = RagdollProfile::humanoid(HumanoidDetail::Bodies23, 1.75);
+    // An elbow bends about its own axis only.
+    let elbow = profile.bone("forearm_l").unwrap().joint.frame * Vec3::X;
     let pose = RagdollPose::from_turns(
         &profile,
         [
             ("upper_arm_l", Quat::from_rotation_x(1.2)),
-            ("forearm_l", Quat::from_rotation_x(0.8)),
+            ("forearm_l", Quat::from_axis_angle(elbow, 0.8)),
             ("upper_arm_r", Quat::from_rotation_z(1.0)),
             ("thigh_l", Quat::from_rotation_x(1.0)),
             ("shin_l", Quat::from_rotation_x(-0.9)),
