@@ -211,6 +211,8 @@ pub(super) fn drive(
         if !awake {
             continue;
         }
+        let substeps = worlds.substeps(&first.link) + plan.extra_substeps as f32;
+        let step = (dt, substeps);
         let pins = slots
             .iter()
             .flatten()
@@ -221,7 +223,15 @@ pub(super) fn drive(
             let Some(slot) = slot else { continue };
             if let Ok(((.., mut ties), ..)) = bones.get_mut(slot.entity) {
                 let ties = ties.bypass_change_detection();
-                tick::pin(&mut worlds, config, plan, slot, 1.0 / pins as f32, ties, dt);
+                tick::pin(
+                    &mut worlds,
+                    config,
+                    plan,
+                    slot,
+                    1.0 / pins as f32,
+                    ties,
+                    step,
+                );
                 if !simulated(slot) {
                     continue;
                 }
@@ -230,7 +240,15 @@ pub(super) fn drive(
                 }
                 worlds.cap(&slot.link, &slot.handle, config.max_speed, config.max_spin);
                 if let Some(parent) = plan.bones[i].parent.and_then(|p| slots[p].as_ref()) {
-                    tick::drive(&mut worlds, config, &plan.bones[i], slot, parent, ties, dt);
+                    tick::drive(
+                        &mut worlds,
+                        config,
+                        &plan.bones[i],
+                        slot,
+                        parent,
+                        ties,
+                        step,
+                    );
                 }
             }
         }

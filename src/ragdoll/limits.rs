@@ -8,7 +8,7 @@
 use bevy::prelude::*;
 
 use super::{
-    math::rotation::{swing_point, swing_twist, twist_angle},
+    math::rotation::{swing_point, swing_twist, twist_angle, twist_of_angle},
     plan::PlannedBone,
     profile::JointKind,
 };
@@ -47,6 +47,7 @@ impl PlannedBone {
         let first = parent * self.frames.rotation1;
         let mut aimed = AimedRows {
             rotation1: self.frames.rotation1,
+            rotation2: self.frames.rotation2,
             cone: None,
             turns: [None; 3],
         };
@@ -62,14 +63,12 @@ impl PlannedBone {
                 aimed.cone = Some((half_angle - opens).max(NARROWEST));
                 // From the turned axis the same twist measures differently.
                 let shift = twist_angle(center.inverse() * q) - twist_angle(q);
-                let range = match self.joint.kind {
-                    JointKind::Ball { twist, .. } => {
-                        let rate = spin.dot(axis + own) / (1.0 + axis.dot(own)).max(0.1);
-                        ahead([twist.x, twist.y], rate, substep)
-                    }
-                    _ => [0.0; 2],
-                };
-                aimed.turns[0] = Some([range[0] + shift, range[1] + shift]);
+                aimed.rotation2 = self.frames.rotation2 * twist_of_angle(-shift);
+                // Without twist it is locked: the lock has the true direction wherever the bone is.
+                if let JointKind::Ball { twist, .. } = self.joint.kind {
+                    let rate = spin.dot(axis + own) / (1.0 + axis.dot(own)).max(0.1);
+                    aimed.turns[0] = Some(ahead([twist.x, twist.y], rate, substep));
+                }
             }
             JointKind::Hinge { min, max } | JointKind::Pivot { min, max } => {
                 let rate = spin.dot(first * Vec3::X);

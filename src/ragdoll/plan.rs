@@ -23,6 +23,8 @@ pub(crate) struct RagdollPlan {
     pub apart: Vec<(usize, usize)>,
     /// Whether those pairs were told apart.
     pub told: bool,
+    /// Substeps beyond those of the physics world.
+    pub extra_substeps: usize,
     /// Kilograms.
     pub mass: f32,
     /// Of the whole in the bind pose about its centre of mass, the mean of its three moments, kg·m².
@@ -148,6 +150,7 @@ impl RagdollPlan {
             bones,
             apart,
             told: false,
+            extra_substeps: 0,
             mass: config.mass,
             inertia: (figure.x_axis.x + figure.y_axis.y + figure.z_axis.z) / 3.0,
         }
@@ -191,7 +194,7 @@ impl PlannedBone {
                 rows.cone = Some(self.cap(Quat::IDENTITY).1);
             }
             JointKind::Condyloid { .. } => {
-                rows.turns[0] = Some([0.0, 0.0]);
+                rows.locked_turns[0] = true;
                 rows.cone = Some(self.cap(Quat::IDENTITY).1);
             }
             JointKind::Hinge { min, max } | JointKind::Pivot { min, max } => {
@@ -229,9 +232,17 @@ impl PlannedBone {
             locked_turns: [false; 3],
             ..rows
         };
+        // The engine's spring has the inertia of the bone about its own centre.
+        let own = Mat3::from_quat(self.inertia_axes);
+        let own = own * Mat3::from_diagonal(self.inertia) * own.transpose();
+        let own = along_axes(own, self.frames.rotation2);
+        let more = match self.joint.kind {
+            JointKind::Hinge { .. } | JointKind::Pivot { .. } => self.carried.x / own.x,
+            _ => (self.carried.y + self.carried.z) / (own.y + own.z),
+        };
         let spring = RowSpring {
-            frequency: soft.frequency,
-            damping_ratio: soft.damping_ratio,
+            frequency: soft.frequency * more.sqrt(),
+            damping_ratio: soft.damping_ratio * more.sqrt(),
         };
         (hard, Some((giving, spring)))
     }

@@ -206,6 +206,11 @@ pub(super) fn stirs(slot: &Slot, parent: Option<&Slot>, state: &BoneState) -> bo
     })
 }
 
+/// Part of a tick by which its substeps look ahead on the mean.
+fn lead(substeps: f32) -> f32 {
+    (substeps + 1.0) / (2.0 * substeps)
+}
+
 /// Turns the limits of a bone's joint, and its drive, to where they are in this tick.
 pub(super) fn drive(
     worlds: &mut JointWorlds,
@@ -214,13 +219,18 @@ pub(super) fn drive(
     slot: &Slot,
     parent: &Slot,
     ties: &BoneTies,
-    dt: f32,
+    (dt, substeps): (f32, f32),
 ) {
     let link = &slot.link;
     if let Some(joint) = ties.soft.or(ties.limit) {
         let (own, of) = (&slot.motion, &parent.motion);
         let spin = own.spin - of.spin;
-        let substep = dt / worlds.substeps(link);
+        // A limit that gives need not be met beforehand.
+        let substep = if ties.soft.is_some() {
+            0.0
+        } else {
+            dt / substeps
+        };
         if let Some(rows) = bone.aimed(of.rotation, own.rotation, spin, substep) {
             worlds.aim(link, joint, &rows);
         }
@@ -239,7 +249,7 @@ pub(super) fn drive(
     let now = bone.within_limits(parent.target.rotation.inverse() * slot.target.rotation);
     let before = bone.within_limits(parent.before.rotation.inverse() * slot.before.rotation);
     let turn = rotation_vector(now * before.inverse());
-    let aim = (from_rotation_vector(turn * worlds.lead(link)) * before * f2).normalize();
+    let aim = (from_rotation_vector(turn * lead(substeps)) * before * f2).normalize();
     let rate = TAU * config.drive.frequency * slot.strength.sqrt();
     let most = bone.joint.max_torque * config.drive.torque * slot.strength;
     let rows = MotorRows {
@@ -259,7 +269,7 @@ pub(super) fn pin(
     slot: &Slot,
     share: f32,
     ties: &mut BoneTies,
-    dt: f32,
+    (dt, substeps): (f32, f32),
 ) {
     let link = &slot.link;
     if !(slot.pin > 0.0 && slot.body == BoneBody::Dynamic) {
@@ -272,7 +282,7 @@ pub(super) fn pin(
         ties.pin = worlds.pin(link, &slot.handle);
     }
     let Some(joint) = ties.pin else { return };
-    let lead = worlds.lead(link);
+    let lead = lead(substeps);
     let way = slot.target.position - slot.before.position;
     let turn = rotation_vector(slot.target.rotation * slot.before.rotation.inverse());
     let position = slot.before.position + way * lead;

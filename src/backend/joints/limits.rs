@@ -85,6 +85,8 @@ pub(super) fn joint(
 pub(crate) struct AimedRows {
     /// Of the first frame.
     pub rotation1: Quat,
+    /// Of the second.
+    pub rotation2: Quat,
     /// Radians.
     pub cone: Option<f32>,
     /// Radians.
@@ -96,6 +98,7 @@ impl JointWorlds<'_, '_> {
     pub fn aim(&mut self, link: &RapierContextEntityLink, joint: JointHandle, rows: &AimedRows) {
         self.edit(link, joint, |joint| {
             joint.local_frame1.rotation = rows.rotation1;
+            joint.local_frame2.rotation = rows.rotation2;
             for (axis, limits) in TURNS.into_iter().zip(rows.turns) {
                 if let Some(limits) = limits {
                     joint.set_limits(axis, limits);

@@ -91,12 +91,6 @@ impl JointWorlds<'_, '_> {
         })
     }
 
-    /// Part of a tick by which its substeps look ahead on the mean.
-    pub fn lead(&self, link: &RapierContextEntityLink) -> f32 {
-        let substeps = self.substeps(link);
-        (substeps + 1.0) / (2.0 * substeps)
-    }
-
     /// Lets the solver go over the joints at least so often in each substep.
     pub fn need_iterations(&mut self, link: &RapierContextEntityLink, iterations: usize) {
         if let Ok((_, _, mut simulation, _)) = self.contexts.get_mut(link.0) {
