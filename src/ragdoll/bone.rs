@@ -55,7 +55,7 @@ pub struct BoneOutput {
 pub(crate) struct BoneTies {
     /// Locks the pivot, and holds the limits when they are hard.
     pub limit: Option<JointHandle>,
-    /// Holds soft limits.
+    /// Holds soft limits, and the cone of a joint whose twist is locked.
     pub soft: Option<JointHandle>,
     pub drive: Option<JointHandle>,
     pub pin: Option<JointHandle>,

@@ -76,7 +76,7 @@ pub(super) fn tie(
             let frames = &planned.frames;
             ties.limit = worlds.tie(link, &parent, handle, frames, &rows, None);
             ties.soft = soft.and_then(|(rows, spring)| {
-                worlds.tie(link, &parent, handle, frames, &rows, Some(spring))
+                worlds.tie(link, &parent, handle, frames, &rows, spring)
             });
             ties.drive = worlds.motorize(link, &parent, handle, frames);
         }

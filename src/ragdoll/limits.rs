@@ -8,7 +8,7 @@
 use bevy::prelude::*;
 
 use super::{
-    math::rotation::{swing_point, swing_twist, twist_angle, twist_of_angle},
+    math::rotation::{from_rotation_vector, swing_point, swing_twist, twist_angle, twist_of_angle},
     plan::PlannedBone,
     profile::JointKind,
 };
@@ -42,8 +42,14 @@ impl PlannedBone {
     }
 
     /// The limits for a tick, by the rotations of both bones, the child's spin against its parent (world,
-    /// radians per second), and the length of a substep, seconds.
-    pub fn aimed(&self, parent: Quat, child: Quat, spin: Vec3, substep: f32) -> Option<AimedRows> {
+    /// radians per second), and the lengths of the tick and of a substep, seconds.
+    pub fn aimed(
+        &self,
+        parent: Quat,
+        child: Quat,
+        spin: Vec3,
+        (dt, substep): (f32, f32),
+    ) -> Option<AimedRows> {
         let first = parent * self.frames.rotation1;
         let mut aimed = AimedRows {
             rotation1: self.frames.rotation1,
@@ -53,6 +59,9 @@ impl PlannedBone {
         };
         match self.joint.kind {
             JointKind::Ball { .. } | JointKind::Condyloid { .. } => {
+                // Where the bone is at the end of the tick: an ellipse bends away under one that slides
+                // along it, and the twist of a turned axis changes as it does.
+                let child = (from_rotation_vector(spin * dt) * child).normalize();
                 let q = self.joint_rotation(parent, child);
                 let (center, half_angle) = self.cap(q);
                 let axis = first * center * Vec3::X;
@@ -63,9 +72,8 @@ impl PlannedBone {
                 aimed.cone = Some((half_angle - opens).max(NARROWEST));
                 // From the turned axis the same twist measures differently.
                 let shift = twist_angle(center.inverse() * q) - twist_angle(q);
-                aimed.rotation2 = self.frames.rotation2 * twist_of_angle(-shift);
-                // Without twist it is locked: the lock has the true direction wherever the bone is.
                 if let JointKind::Ball { twist, .. } = self.joint.kind {
+                    aimed.rotation2 = self.frames.rotation2 * twist_of_angle(-shift);
                     let rate = spin.dot(axis + own) / (1.0 + axis.dot(own)).max(0.1);
                     aimed.turns[0] = Some(ahead([twist.x, twist.y], rate, substep));
                 }

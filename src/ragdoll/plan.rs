@@ -216,12 +216,15 @@ impl PlannedBone {
         rows
     }
 
-    /// The rows as a hard joint and a soft one.
-    pub fn split(&self) -> (JointRows, Option<(JointRows, RowSpring)>) {
+    /// The rows as a joint that is what it is, and one that is aimed anew each tick or gives.
+    pub fn split(&self) -> (JointRows, Option<(JointRows, Option<RowSpring>)>) {
         let rows = self.rows();
-        let Some(soft) = self.joint.softness else {
+        let apart = matches!(self.joint.kind, JointKind::Condyloid { .. });
+        // What locks the twist must not turn with the cone: from a turned axis the twist changes with
+        // every swing along the rim.
+        if self.joint.softness.is_none() && !apart {
             return (rows, None);
-        };
+        }
         let hard = JointRows {
             locked_slides: rows.locked_slides,
             locked_turns: rows.locked_turns,
@@ -231,6 +234,9 @@ impl PlannedBone {
             locked_slides: [false; 3],
             locked_turns: [false; 3],
             ..rows
+        };
+        let Some(soft) = self.joint.softness else {
+            return (hard, Some((giving, None)));
         };
         // The engine's spring has the inertia of the bone about its own centre.
         let own = Mat3::from_quat(self.inertia_axes);
@@ -244,7 +250,7 @@ impl PlannedBone {
             frequency: soft.frequency * more.sqrt(),
             damping_ratio: soft.damping_ratio * more.sqrt(),
         };
-        (hard, Some((giving, spring)))
+        (hard, Some((giving, Some(spring))))
     }
 
     /// Rotation of the child's axes of the joint in those that limits are counted from.

@@ -226,12 +226,12 @@ pub(super) fn drive(
         let (own, of) = (&slot.motion, &parent.motion);
         let spin = own.spin - of.spin;
         // A limit that gives need not be met beforehand.
-        let substep = if ties.soft.is_some() {
+        let substep = if bone.joint.softness.is_some() {
             0.0
         } else {
             dt / substeps
         };
-        if let Some(rows) = bone.aimed(of.rotation, own.rotation, spin, substep) {
+        if let Some(rows) = bone.aimed(of.rotation, own.rotation, spin, (dt, substep)) {
             worlds.aim(link, joint, &rows);
         }
     }
