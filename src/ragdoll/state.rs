@@ -64,6 +64,8 @@ pub struct BoneState {
     pub spin: Vec3,
     /// How hard it was driven in the last tick.
     pub strength: f32,
+    /// How hard it was pinned in the last tick.
+    pub pin: f32,
     /// Whether its offset is counted from the bone that bears it, not from its own pose.
     pub borne: bool,
     /// What is left of the pose from which it went over to following.

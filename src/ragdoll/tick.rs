@@ -146,6 +146,7 @@ pub(super) fn change_over(
     state.body = new;
     state.target = Some(slot.target);
     state.strength = slot.strength;
+    state.pin = slot.pin;
     Way {
         was,
         sent,
@@ -187,7 +188,7 @@ pub(super) fn stirs(slot: &Slot, parent: Option<&Slot>, state: &BoneState) -> bo
     if slot.body != BoneBody::Dynamic {
         return false;
     }
-    if slot.strength != state.strength {
+    if slot.strength != state.strength || slot.pin != state.pin {
         return true;
     }
     if slot.strength == 0.0 {

@@ -160,3 +160,27 @@ fn a_pose_beyond_the_limits_is_taken_as_far_as_they_go_and_lets_it_sleep() {
     findings.at_most("violation, degrees", out.violation.to_degrees(), 0.5);
     findings.holds("it sleeps", out.asleep);
 }
+
+#[test]
+fn a_powered_figure_pinned_by_its_pelvis_stays_where_it_is() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let at = Vec3::Y * 3.0;
+        let entity = human(&mut sim, HumanoidDetail::Bodies23, RagdollMode::Powered, at);
+        sim.ticks(1);
+        let pelvis = bone(&sim, entity, "pelvis");
+        edit::<BoneControl>(&mut sim, pelvis, |c| c.pin = 1.0);
+        let start = sim.position(pelvis);
+        sim.seconds(3.0);
+        let off = sim.position(pelvis).distance(start);
+        findings.at_most(format!("{hz} Hz: way of the pelvis, m"), off, 0.01);
+        let (mean, largest) = errors(&sim, entity);
+        findings.at_most(format!("{hz} Hz: mean error, degrees"), mean, 1.0);
+        findings.at_most(format!("{hz} Hz: largest error, degrees"), largest, 3.0);
+        edit::<BoneControl>(&mut sim, pelvis, |c| c.pin = 0.0);
+        sim.seconds(0.3);
+        let fallen = start.y - sim.position(pelvis).y;
+        findings.within(format!("{hz} Hz: falls when let go, m"), fallen, 0.44, 0.15);
+    }
+}
