@@ -12,7 +12,7 @@ pub mod debug;
 #[cfg(any(feature = "character", feature = "vehicle"))]
 mod diagnostics;
 pub mod interpolation;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
@@ -25,6 +25,8 @@ mod validate;
 
 #[cfg(feature = "character")]
 pub mod character;
+#[cfg(feature = "ragdoll")]
+pub mod ragdoll;
 #[cfg(feature = "vehicle")]
 pub mod vehicle;
 
@@ -59,6 +61,8 @@ impl PluginGroup for EmbodyPlugins {
         let group = group.add(character::CharacterPlugin);
         #[cfg(feature = "vehicle")]
         let group = group.add(vehicle::VehiclePlugin);
+        #[cfg(feature = "ragdoll")]
+        let group = group.add(ragdoll::RagdollPlugin);
         group
     }
 }
@@ -89,6 +93,14 @@ pub mod prelude {
         Landed, LastPose, LeaveVelocity, LeftGround, MovementMode, NotPushable, SlopeSpeed, Stance,
         StanceChanged, StanceRefusal, StepAttempt, StepConfig, StepResult, Stepped, SurfaceGrip,
         SurfaceVelocity, UpDirection, WaterVolume,
+    };
+    #[cfg(feature = "ragdoll")]
+    #[doc(hidden)]
+    pub use crate::ragdoll::{
+        BodyPart, BoneControl, BoneMass, BoneOf, BoneOutput, BonePose, BoneProfile, BoneShape,
+        BoneSource, Bones, HumanoidDetail, HumanoidRig, JointKind, JointProfile, JointSoftness,
+        Ragdoll, RagdollBone, RagdollDrive, RagdollIntent, RagdollMode, RagdollPlugin, RagdollPose,
+        RagdollProfile, RagdollState,
     };
     #[cfg(feature = "vehicle")]
     #[doc(hidden)]

@@ -70,7 +70,7 @@ impl PhysicsWorldsMut<'_, '_> {
 
     /// Gives a dynamic body a force and a torque about its centre of mass for the whole tick. A sleeping
     /// body is left asleep unless `wake`.
-    #[cfg(feature = "vehicle")]
+    #[cfg(any(feature = "vehicle", feature = "ragdoll"))]
     pub fn force_body(
         &mut self,
         link: &RapierContextEntityLink,

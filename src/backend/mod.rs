@@ -6,7 +6,7 @@ mod hierarchy;
 pub(crate) mod setup;
 pub(crate) mod teleport;
 
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
@@ -14,7 +14,7 @@ pub(crate) mod teleport;
 pub(crate) mod activity;
 #[cfg(feature = "character")]
 pub(crate) mod collider;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
@@ -22,9 +22,11 @@ pub(crate) mod collider;
 pub(crate) mod forces;
 #[cfg(feature = "vehicle")]
 pub(crate) mod hold;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(feature = "ragdoll")]
+pub(crate) mod joints;
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 pub(crate) mod motion;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
@@ -34,17 +36,17 @@ pub(crate) mod neighbourhood;
 pub(crate) mod probe;
 #[cfg(feature = "vehicle")]
 pub(crate) mod rigid;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
 mod search_tree;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),
     expect(dead_code, reason = "what only characters ask")
 )]
 pub(crate) mod world;
-#[cfg(any(feature = "character", feature = "vehicle"))]
+#[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 pub(crate) mod world_mut;

@@ -137,7 +137,7 @@ impl PhysicsWorldsMut<'_, '_> {
 
     /// Brings what was spawned since the last step into the search tree, and gives new bodies their
     /// mass, which they would otherwise have only from the coming step on.
-    #[cfg(feature = "vehicle")]
+    #[cfg(any(feature = "vehicle", feature = "ragdoll"))]
     pub fn admit<'a>(
         &mut self,
         new: impl Iterator<Item = (&'a RapierColliderHandle, &'a RapierContextEntityLink)>,

@@ -4,5 +4,6 @@ mod character;
 mod debug;
 mod foundation;
 mod physics;
+mod ragdoll;
 mod support;
 mod vehicle;

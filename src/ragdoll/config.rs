@@ -1,0 +1,109 @@
+//! What a ragdoll is, as a whole.
+
+use bevy::prelude::*;
+
+use super::{
+    humanoid::HumanoidDetail, intent::RagdollIntent, plan::RagdollPlan, pose::RagdollPose,
+    profile::RagdollProfile, state::RagdollState,
+};
+
+/// A ragdoll: add it to an entity, and it gets [`Bones`](super::Bones), bodies of their own at the top
+/// level of the world, tied to it by [`BoneOf`](super::BoneOf).
+///
+/// The entity's [`Transform`] says where the figure is: origin on the ground between the feet, `Y` up,
+/// facing `-Z`. What the figure should do is asked through [`RagdollIntent`], what pose it should take
+/// through [`RagdollPose`] or [`BoneSource`](super::BoneSource), what each bone adds to that through
+/// [`BoneControl`](super::BoneControl); what it does is in [`RagdollState`] and each bone's
+/// [`BoneOutput`](super::BoneOutput).
+///
+/// A value out of its range is refused with one warning; the ragdoll then has no bones until it is
+/// mended. Changing the component builds the bones anew.
+#[derive(Component, Reflect, Clone, Debug, PartialEq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serialize", reflect(Serialize, Deserialize))]
+#[require(RagdollIntent, RagdollState, RagdollPose, RagdollPlan, Transform)]
+pub struct Ragdoll {
+    /// The body plan.
+    pub profile: RagdollProfile,
+    /// Kilograms, above 0.
+    pub mass: f32,
+    /// How far masses and inertias are evened out for the solver, `0..=1`: 0 are those of anatomy; 1 is
+    /// the stablest, with hands several times as heavy as real ones. The whole keeps its mass.
+    pub conditioning: f32,
+    /// How it is driven to a pose.
+    pub drive: RagdollDrive,
+    /// Damping of linear and angular velocity by the air, per second, at least 0.
+    pub damping: f32,
+    /// No bone is faster than this, metres per second, above 0.
+    pub max_speed: f32,
+    /// No bone turns faster than this, radians per second, above 0. Limits hold up to about this
+    /// rate; beyond, they are overrun.
+    pub max_spin: f32,
+    /// How long a switch to a kinematic mode takes to leave the pose it came from, seconds, at least 0.
+    pub fade: f32,
+    /// How often the solver goes over the joints in each substep, at least 1. It is a setting of the
+    /// whole physics world, where the largest that is asked for counts.
+    pub iterations: u8,
+}
+
+/// How a powered ragdoll is driven to its pose.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct RagdollDrive {
+    /// Hertz, above 0: how fast each joint returns to its pose, with everything that hangs on it. 2 is
+    /// soft, 10 firm; 20 needs 120 ticks per second or `iterations` of 4.
+    pub frequency: f32,
+    /// Part of critical damping, at least 0; below 1 it swings.
+    pub damping_ratio: f32,
+    /// Part of the pose's own velocity that is aimed at, `0..=1`; below 1 it lags behind.
+    pub velocity: f32,
+    /// Part of gravity that joints bear without sagging, `0..=1`, where they hang from a bone that is
+    /// kinematic or pinned.
+    pub gravity: f32,
+    /// Part of each joint's greatest torque that it has; infinite is allowed.
+    pub torque: f32,
+    /// Hertz, above 0: how fast a pinned bone returns to its place.
+    pub pin_frequency: f32,
+}
+
+impl Default for RagdollDrive {
+    fn default() -> Self {
+        Self {
+            frequency: 10.0,
+            damping_ratio: 1.0,
+            velocity: 1.0,
+            gravity: 1.0,
+            torque: 1.0,
+            pin_frequency: 10.0,
+        }
+    }
+}
+
+impl Default for Ragdoll {
+    fn default() -> Self {
+        Self {
+            profile: RagdollProfile::humanoid(HumanoidDetail::default(), 1.75),
+            mass: 75.0,
+            conditioning: 1.0,
+            drive: RagdollDrive::default(),
+            damping: 0.05,
+            max_speed: 100.0,
+            max_spin: 47.0,
+            fade: 0.25,
+            iterations: 4,
+        }
+    }
+}
+
+impl Ragdoll {
+    /// A figure of this plan and mass.
+    pub fn new(profile: RagdollProfile, mass: f32) -> Self {
+        Self {
+            profile,
+            mass,
+            ..default()
+        }
+    }
+}

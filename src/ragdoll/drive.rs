@@ -1,0 +1,271 @@
+//! The systems of the tick between synchronisation and step.
+
+use bevy::{prelude::*, transform::helper::TransformHelper};
+
+use super::{
+    bone::{BoneTies, Bones, RagdollBone},
+    config::Ragdoll,
+    intent::{BoneControl, RagdollIntent, RagdollMode, part},
+    plan::RagdollPlan,
+    pose::{BonePose, BoneSource, RagdollPose},
+    prepare::wanted,
+    state::{BoneBody, RagdollState},
+    tick::{self, BoneForce, Carried, Slot, Way},
+};
+use crate::backend::{
+    handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
+    joints::JointWorlds,
+    world_mut::PhysicsWorldsMut,
+};
+
+/// The forces of this tick.
+#[derive(Resource, Default)]
+pub(super) struct BoneForces(Vec<BoneForce>);
+
+/// Gives new bones their mass before they are first moved.
+pub(super) fn admit_new(
+    mut worlds: PhysicsWorldsMut,
+    new: Query<
+        (&RapierColliderHandle, &RapierContextEntityLink),
+        (Added<RapierColliderHandle>, With<RagdollBone>),
+    >,
+) {
+    worlds.admit(new.iter());
+}
+
+/// A bone as the physics world knows it.
+type TiedBone<'a> = (
+    &'a RagdollBone,
+    &'a RapierContextEntityLink,
+    &'a RapierRigidBodyHandle,
+    &'a mut BoneTies,
+);
+
+/// Ties new bones to their parents.
+pub(super) fn tie(
+    mut worlds: JointWorlds,
+    mut ragdolls: Query<(&Ragdoll, &mut RagdollPlan, &Bones)>,
+    mut bones: Query<TiedBone>,
+    mut handles: Local<Vec<Option<(RapierContextEntityLink, RapierRigidBodyHandle)>>>,
+) {
+    for (config, mut plan, tied) in &mut ragdolls {
+        if plan.told || plan.bones.is_empty() {
+            continue;
+        }
+        handles.clear();
+        handles.resize(plan.bones.len(), None);
+        for (bone, link, handle, _) in bones.iter_many(tied.iter()) {
+            if let Some(slot) = handles.get_mut(bone.order) {
+                *slot = Some((*link, *handle));
+            }
+        }
+        // All or none: the first tick has them all.
+        if handles.iter().any(Option::is_none) {
+            continue;
+        }
+        for entity in tied.iter() {
+            let Ok((bone, link, handle, mut ties)) = bones.get_mut(entity) else {
+                continue;
+            };
+            worlds.need_iterations(link, usize::from(config.iterations.max(1)));
+            let planned = &plan.bones[bone.order];
+            let Some((_, parent)) = planned.parent.and_then(|p| handles[p]) else {
+                continue;
+            };
+            let (rows, soft) = planned.split();
+            let frames = &planned.frames;
+            ties.limit = worlds.tie(link, &parent, handle, frames, &rows, None);
+            ties.soft = soft.and_then(|(rows, spring)| {
+                worlds.tie(link, &parent, handle, frames, &rows, spring)
+            });
+            ties.drive = worlds.motorize(link, &parent, handle, frames);
+        }
+        for (i, j) in plan.apart.iter() {
+            if let (Some((link, a)), Some((_, b))) = (handles[*i], handles[*j]) {
+                worlds.ignore(&link, &a, &b);
+            }
+        }
+        plan.told = true;
+    }
+}
+
+/// Where a bone is asked to be at the end of the tick.
+fn asked(
+    helper: &TransformHelper,
+    source: Option<&BoneSource>,
+    pose: &RagdollPose,
+    root: &Transform,
+    plan: &RagdollPlan,
+    order: usize,
+) -> Option<BonePose> {
+    let pose = match source {
+        Some(source) => {
+            let global = helper.compute_global_transform(source.0).ok()?;
+            let (_, rotation, position) = global.to_scale_rotation_translation();
+            BonePose { position, rotation }
+        }
+        None => {
+            let bone = &plan.bones[order];
+            (pose.bones.get(bone.index).unwrap_or(&bone.bind)).seen_from(root)
+        }
+    };
+    pose.is_sound().then_some(pose)
+}
+
+/// Switches, drives and sends every bone.
+pub(super) fn drive(
+    time: Res<Time>,
+    helper: TransformHelper,
+    mut worlds: JointWorlds,
+    mut forces: ResMut<BoneForces>,
+    mut ragdolls: Query<(
+        Entity,
+        &Ragdoll,
+        &RagdollIntent,
+        &RagdollPose,
+        &RagdollPlan,
+        &mut RagdollState,
+        &Bones,
+    )>,
+    mut bones: Query<(TiedBone, &BoneControl, Option<&BoneSource>)>,
+    mut slots: Local<Vec<Option<Slot>>>,
+    mut ways: Local<Vec<Option<Way>>>,
+    mut carried: Local<Vec<Carried>>,
+) {
+    forces.0.clear();
+    let dt = time.delta_secs();
+    if !(dt > 0.0) {
+        return;
+    }
+    for (entity, config, intent, pose, plan, mut state, tied) in &mut ragdolls {
+        let count = plan.bones.len();
+        if count == 0 || !plan.told || state.bones.len() != count {
+            continue;
+        }
+        let Ok(root) = helper.compute_global_transform(entity) else {
+            continue;
+        };
+        let (_, rotation, translation) = root.to_scale_rotation_translation();
+        let root = Transform::from_translation(translation).with_rotation(rotation);
+        let driven = matches!(intent.mode, RagdollMode::Powered | RagdollMode::Partial);
+        slots.clear();
+        slots.resize(count, None);
+        for bone in tied.iter() {
+            let Ok(((is, link, handle, _), control, source)) = bones.get(bone) else {
+                continue;
+            };
+            let Some(motion) = worlds.motion(link, handle) else {
+                continue;
+            };
+            let known = state.bones[is.order].target;
+            let asked = asked(&helper, source, pose, &root, plan, is.order);
+            let at = || plan.bones[is.order].bind.seen_from(&root);
+            let target = asked.or(known).unwrap_or_else(at);
+            slots[is.order] = Some(Slot {
+                entity: bone,
+                link: *link,
+                handle: *handle,
+                motion,
+                body: wanted(intent.mode, control),
+                target,
+                before: known.unwrap_or(target),
+                strength: tick::strength(driven, intent.strength, control),
+                pin: if driven { part(control.pin) } else { 0.0 },
+            });
+        }
+        let Some(first) = slots.iter().flatten().next() else {
+            continue;
+        };
+        let Some((gravity, true)) = worlds.gravity(&first.link) else {
+            continue;
+        };
+        let parent_of = |i: usize| plan.bones[i].parent.and_then(|p| slots[p].as_ref());
+        let stirred = (slots.iter().enumerate()).any(|(i, slot)| {
+            slot.as_ref()
+                .is_some_and(|s| tick::stirs(s, parent_of(i), &state.bones[i]))
+        });
+        let simulated = |s: &Slot| s.body == BoneBody::Dynamic;
+        let awake = stirred || (slots.iter().flatten()).any(|s| simulated(s) && !s.motion.sleeping);
+        let follows = slots.iter().flatten().any(|s| !simulated(s));
+        if state.mode == intent.mode {
+            state.bypass_change_detection().age += dt;
+        } else {
+            state.mode = intent.mode;
+            state.age = 0.0;
+        }
+        if !awake && !follows {
+            continue;
+        }
+        let fade = match intent.mode {
+            RagdollMode::GettingUp => state.rise_time,
+            _ => config.fade,
+        };
+        ways.clear();
+        for (i, slot) in slots.iter().enumerate() {
+            let way = slot.as_ref().map(|slot| {
+                let parent = plan.bones[i].parent.and_then(|p| ways[p].as_ref());
+                tick::change_over(&mut worlds, slot, parent, &mut state.bones[i], fade, dt)
+            });
+            ways.push(way);
+        }
+        if !awake {
+            continue;
+        }
+        let substeps = worlds.substeps(&first.link) + plan.extra_substeps as f32;
+        let step = (dt, substeps);
+        let pins = slots
+            .iter()
+            .flatten()
+            .filter(|s| s.pin > 0.0)
+            .count()
+            .max(1);
+        for (i, slot) in slots.iter().enumerate() {
+            let Some(slot) = slot else { continue };
+            if let Ok(((.., mut ties), ..)) = bones.get_mut(slot.entity) {
+                let ties = ties.bypass_change_detection();
+                tick::pin(
+                    &mut worlds,
+                    config,
+                    plan,
+                    slot,
+                    1.0 / pins as f32,
+                    ties,
+                    step,
+                );
+                if !simulated(slot) {
+                    continue;
+                }
+                if stirred {
+                    worlds.wake(&slot.link, &slot.handle);
+                }
+                worlds.cap(&slot.link, &slot.handle, config.max_speed, config.max_spin);
+                if let Some(parent) = plan.bones[i].parent.and_then(|p| slots[p].as_ref()) {
+                    tick::drive(
+                        &mut worlds,
+                        config,
+                        &plan.bones[i],
+                        slot,
+                        parent,
+                        ties,
+                        step,
+                    );
+                }
+            }
+        }
+        if driven {
+            tick::bear_weight(config, plan, &slots, gravity, &mut carried, &mut forces.0);
+        }
+    }
+}
+
+/// Writes the forces.
+pub(super) fn apply_forces(mut worlds: PhysicsWorldsMut, forces: Res<BoneForces>) {
+    for f in &forces.0 {
+        worlds.force_body(&f.link, &f.handle, f.force, f.torque, false);
+    }
+}
+
+/// Takes the tick's forces off the bodies again.
+pub(super) fn end_forces(mut worlds: PhysicsWorldsMut) {
+    worlds.end_forces();
+}

@@ -1,0 +1,166 @@
+//! Before the physics world takes over changes: bones are built, and switched between kinds of bodies.
+
+use bevy::prelude::*;
+use bevy_rapier3d::prelude::{
+    AdditionalMassProperties, AdditionalSolverIterations, Collider, ColliderMassProperties,
+    Damping, MassProperties, RigidBody, RigidBodyDisabled,
+};
+
+use super::{
+    bone::{BoneOf, Bones, RagdollBone},
+    config::Ragdoll,
+    intent::{BoneControl, RagdollIntent, RagdollMode},
+    plan::{PlannedBone, RagdollPlan},
+    pose::RagdollPose,
+    profile::BoneShape,
+    state::{BoneBody, BoneState, RagdollState},
+    validate,
+};
+
+/// Joints are drawn apart by their load with the square of the substep: at this one, seconds, a figure
+/// that hangs in its pose by less than a millimetre.
+const SUBSTEP: f32 = 1.0 / 240.0;
+/// Substeps of a tick in the physics engine, unless the game sets others.
+const USUAL_SUBSTEPS: f32 = 4.0;
+/// The most that are added.
+const MOST_SUBSTEPS: f32 = 12.0;
+
+/// Builds the bones of what is new or changed.
+pub(super) fn build(
+    time: Res<Time>,
+    mut commands: Commands,
+    mut ragdolls: Query<
+        (
+            Entity,
+            &Ragdoll,
+            &RagdollPose,
+            &Transform,
+            &mut RagdollPlan,
+            &mut RagdollState,
+            Option<&Bones>,
+        ),
+        Changed<Ragdoll>,
+    >,
+) {
+    for (entity, config, pose, transform, mut plan, mut state, bones) in &mut ragdolls {
+        for bone in bones.iter().flat_map(|b| b.iter()) {
+            commands.entity(bone).despawn();
+        }
+        state.bones.clear();
+        *plan = RagdollPlan::default();
+        if let Some(what) = validate::refuse(config) {
+            tracing::warn!("{entity}: ragdoll: {what}; it has no bones until then");
+            continue;
+        }
+        for line in validate::lint(config) {
+            tracing::warn!("{entity}: ragdoll: {line}");
+        }
+        *plan = RagdollPlan::of(config);
+        // A hair less, so that a rate that is no round number of seconds does not ask for one more.
+        let wanted = (time.delta_secs() / SUBSTEP - 0.01).ceil() - USUAL_SUBSTEPS;
+        plan.extra_substeps = wanted.clamp(0.0, MOST_SUBSTEPS) as usize;
+        state.bones.resize(plan.bones.len(), BoneState::default());
+        for (order, bone) in plan.bones.iter().enumerate() {
+            let asked = pose.bones.get(bone.index).filter(|p| p.is_sound());
+            let place = asked.unwrap_or(&bone.bind).seen_from(transform);
+            let name = &config.profile.bones[bone.index].name;
+            commands.spawn((
+                Name::new(name.clone()),
+                RagdollBone {
+                    index: bone.index,
+                    order,
+                },
+                BoneOf(entity),
+                body(bone, config.damping),
+                AdditionalSolverIterations(plan.extra_substeps),
+                Transform::from_translation(place.position).with_rotation(place.rotation),
+            ));
+        }
+    }
+}
+
+/// The body of a bone, not yet there for the physics.
+fn body(bone: &PlannedBone, damping: f32) -> impl Bundle + use<> {
+    let collider = match bone.shape {
+        BoneShape::Capsule { from, to, radius } if from.distance(to) > 1.0e-4 => {
+            Collider::capsule(from, to, radius)
+        }
+        BoneShape::Capsule { from, radius, .. } => {
+            Collider::compound(vec![(from, Quat::IDENTITY, Collider::ball(radius))])
+        }
+        BoneShape::Box {
+            center,
+            rotation,
+            half,
+        } => Collider::compound(vec![(
+            center,
+            rotation,
+            Collider::cuboid(half.x, half.y, half.z),
+        )]),
+    };
+    (
+        RigidBody::KinematicPositionBased,
+        RigidBodyDisabled,
+        collider,
+        // The collider's own mass would come on top.
+        ColliderMassProperties::Density(0.0),
+        AdditionalMassProperties::MassProperties(MassProperties {
+            local_center_of_mass: bone.center,
+            mass: bone.mass,
+            principal_inertia_local_frame: bone.inertia_axes,
+            principal_inertia: bone.inertia,
+        }),
+        Damping {
+            linear_damping: damping,
+            angular_damping: damping,
+        },
+    )
+}
+
+/// What a bone is in a mode.
+pub(super) fn wanted(mode: RagdollMode, control: &BoneControl) -> BoneBody {
+    match mode {
+        RagdollMode::Animated => BoneBody::Off,
+        RagdollMode::HitBoxes | RagdollMode::GettingUp => BoneBody::Kinematic,
+        RagdollMode::Partial if control.simulated => BoneBody::Dynamic,
+        RagdollMode::Partial => BoneBody::Kinematic,
+        RagdollMode::Powered | RagdollMode::Limp => BoneBody::Dynamic,
+        RagdollMode::Frozen => BoneBody::Fixed,
+    }
+}
+
+/// Makes of every bone the kind of body that its mode asks for.
+pub(super) fn switch(
+    mut commands: Commands,
+    ragdolls: Query<(&RagdollIntent, &RagdollState, &Bones)>,
+    bones: Query<(&RagdollBone, &BoneControl)>,
+) {
+    for (intent, state, tied) in &ragdolls {
+        for entity in tied.iter() {
+            let Ok((bone, control)) = bones.get(entity) else {
+                continue;
+            };
+            let now = state
+                .bones
+                .get(bone.order)
+                .map_or(BoneBody::Off, |b| b.body);
+            let want = wanted(intent.mode, control);
+            if want == now {
+                continue;
+            }
+            let mut bone = commands.entity(entity);
+            match want {
+                BoneBody::Off => {
+                    bone.insert((RigidBody::KinematicPositionBased, RigidBodyDisabled));
+                    continue;
+                }
+                BoneBody::Kinematic => bone.insert(RigidBody::KinematicPositionBased),
+                BoneBody::Dynamic => bone.insert(RigidBody::Dynamic),
+                BoneBody::Fixed => bone.insert(RigidBody::Fixed),
+            };
+            if now == BoneBody::Off {
+                bone.remove::<RigidBodyDisabled>();
+            }
+        }
+    }
+}

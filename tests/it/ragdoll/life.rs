@@ -1,0 +1,195 @@
+//! Bones come, rest, go, and are refused.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::*;
+use embody_scenes::Sim;
+
+use super::support::*;
+
+#[test]
+fn a_limp_figure_falls_and_sleeps_within_four_seconds_of_the_impact() {
+    let mut findings = Findings::new();
+    for detail in [HumanoidDetail::Bodies15, HumanoidDetail::Bodies23] {
+        let mut sim = Sim::new(60.0);
+        sim.floor(0.0);
+        let entity = human(&mut sim, detail, RagdollMode::Limp, Vec3::Y * 0.3);
+        sim.seconds(1.0);
+        let mut slept = None;
+        for tick in 0..360 {
+            sim.ticks(1);
+            if outputs(&sim, entity).iter().all(|o| o.asleep) {
+                slept = Some(tick as f32 / 60.0);
+                break;
+            }
+        }
+        findings.at_most(
+            format!("{detail:?}: asleep after, s"),
+            slept.unwrap_or(f32::MAX),
+            4.0,
+        );
+        let gap = worst(&sim, entity, |o| o.gap);
+        findings.at_most(format!("{detail:?}: gap at rest, m"), gap, 0.002);
+        let off = worst(&sim, entity, |o| o.violation.to_degrees());
+        findings.at_most(format!("{detail:?}: violation at rest, degrees"), off, 1.0);
+        let low = bones(&sim, entity)
+            .iter()
+            .map(|b| sim.position(*b).y)
+            .fold(f32::MAX, f32::min);
+        findings.at_least(format!("{detail:?}: lowest joint, m"), low, -0.02);
+    }
+}
+
+#[test]
+fn a_figure_in_free_flight_keeps_its_momentum() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies19,
+            RagdollMode::Limp,
+            Vec3::Y * 50.0,
+        );
+        let damping_off = |sim: &mut Sim| {
+            for part in bones(sim, entity) {
+                insert(sim, part, Damping::default());
+            }
+        };
+        sim.ticks(2);
+        damping_off(&mut sim);
+        let foot = bone(&sim, entity, "foot_l");
+        insert(
+            &mut sim,
+            foot,
+            ExternalImpulse {
+                impulse: Vec3::new(30.0, 10.0, 0.0),
+                torque_impulse: Vec3::ZERO,
+            },
+        );
+        sim.ticks(1);
+        let (start, mass) = momentum(&sim, entity);
+        sim.seconds(1.0);
+        let (end, _) = momentum(&sim, entity);
+        let expected = start - Vec3::Y * G * mass;
+        findings.at_most(
+            format!("{hz} Hz: off, kg m/s of {}", expected.length()),
+            end.distance(expected),
+            0.005 * expected.length(),
+        );
+    }
+}
+
+#[test]
+fn despawned_ragdolls_take_their_bones_and_joints_with_them() {
+    let mut sim = Sim::new(60.0);
+    sim.ticks(1);
+    let counts = |sim: &mut Sim| {
+        let bodies = sim
+            .app
+            .world_mut()
+            .query::<&RigidBody>()
+            .iter(sim.app.world())
+            .count();
+        let mut sets = sim.app.world_mut().query::<(
+            &bevy_rapier3d::plugin::context::RapierContextJoints,
+            &bevy_rapier3d::plugin::context::RapierRigidBodySet,
+        )>();
+        let (joints, set) = sets.single(sim.app.world()).unwrap();
+        (bodies, joints.impulse_joints.len(), set.bodies.len())
+    };
+    let before = counts(&mut sim);
+    for n in 0..200 {
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies10,
+            RagdollMode::Limp,
+            Vec3::new(n as f32, 1.0, 0.0),
+        );
+        sim.ticks(1);
+        sim.app.world_mut().despawn(entity);
+    }
+    sim.ticks(2);
+    let mut findings = Findings::new();
+    findings.holds(
+        format!("{before:?} is {:?}", counts(&mut sim)),
+        before == counts(&mut sim),
+    );
+}
+
+#[test]
+fn a_bone_despawned_in_flight_disturbs_nothing_else() {
+    let mut sim = Sim::new(60.0);
+    sim.floor(0.0);
+    let entity = human(
+        &mut sim,
+        HumanoidDetail::Bodies19,
+        RagdollMode::Powered,
+        Vec3::Y,
+    );
+    sim.seconds(0.2);
+    let arm = bone(&sim, entity, "upper_arm_r");
+    sim.app.world_mut().despawn(arm);
+    sim.seconds(2.0);
+    let mut findings = Findings::new();
+    findings.holds("the others are finite", finite(&sim, entity));
+    findings.near("bones", bones(&sim, entity).len() as f32, 18.0, 0.0);
+}
+
+#[test]
+fn a_refused_ragdoll_has_no_bones_until_it_is_mended() {
+    let mut sim = Sim::new(60.0);
+    let mut ragdoll = Ragdoll::default();
+    let good = ragdoll.clone();
+    ragdoll.profile.bones[4].parent = Some("nowhere".into());
+    let entity = figure(&mut sim, ragdoll, RagdollMode::Limp, Vec3::Y);
+    sim.ticks(3);
+    let mut findings = Findings::new();
+    findings.holds("no bones", bones(&sim, entity).is_empty());
+    insert(&mut sim, entity, good);
+    sim.ticks(3);
+    findings.near("bones", bones(&sim, entity).len() as f32, 19.0, 0.0);
+}
+
+#[test]
+fn the_same_figure_falls_the_same_way_twice() {
+    let fall = || {
+        let mut sim = Sim::new(60.0);
+        sim.floor(0.0);
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies19,
+            RagdollMode::Limp,
+            Vec3::Y * 0.4,
+        );
+        let mut seen = Vec::new();
+        for _ in 0..120 {
+            sim.ticks(1);
+            seen.push(sim.get::<RagdollState>(entity));
+        }
+        seen
+    };
+    let mut findings = Findings::new();
+    findings.same("states", &fall(), &fall());
+}
+
+#[test]
+fn nobody_wakes_a_figure_that_sleeps_in_its_pose() {
+    let mut sim = Sim::new(60.0);
+    sim.floor(0.0);
+    let entity = human(
+        &mut sim,
+        HumanoidDetail::Bodies19,
+        RagdollMode::Limp,
+        Vec3::Y * 0.1,
+    );
+    sim.seconds(6.0);
+    let mut findings = Findings::new();
+    let asleep = |sim: &Sim| outputs(sim, entity).iter().all(|o| o.asleep);
+    findings.holds("asleep", asleep(&sim));
+    sim.seconds(1.0);
+    findings.holds("still asleep", asleep(&sim));
+    ask(&mut sim, entity, RagdollMode::Powered);
+    sim.ticks(2);
+    findings.holds("woken by its muscles", !asleep(&sim));
+}

@@ -1,0 +1,187 @@
+//! Every switch keeps the place and the velocity of every bone.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use embody_scenes::Sim;
+
+use super::support::*;
+
+/// Steps a running figure one tick on.
+fn run(sim: &mut Sim, ragdoll: Entity, velocity: Vec3) {
+    let step = velocity * sim.dt();
+    edit::<Transform>(sim, ragdoll, |t| t.translation += step);
+    sim.ticks(1);
+}
+
+#[test]
+fn a_runner_who_falls_keeps_the_momentum() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        for from in [RagdollMode::HitBoxes, RagdollMode::Animated] {
+            for to in [RagdollMode::Limp, RagdollMode::Powered] {
+                let mut sim = Sim::new(hz);
+                let entity = human(&mut sim, HumanoidDetail::Bodies19, from, Vec3::Y * 5.0);
+                let velocity = Vec3::new(0.0, 0.0, -6.0);
+                for _ in 0..10 {
+                    run(&mut sim, entity, velocity);
+                }
+                let before = sim.get::<Transform>(bone(&sim, entity, "pelvis"));
+                ask(&mut sim, entity, to);
+                run(&mut sim, entity, velocity);
+                let (momentum, mass) = momentum(&sim, entity);
+                let what = format!("{hz} Hz, {from:?} to {to:?}");
+                findings.near(format!("{what}: mass"), mass, 75.0, 0.01);
+                findings.within(format!("{what}: speed"), -momentum.z / mass, 6.0, 0.01);
+                if from == RagdollMode::HitBoxes {
+                    let after = sim.get::<Transform>(bone(&sim, entity, "pelvis"));
+                    let way = before.translation.z - after.translation.z;
+                    findings.within(format!("{what}: way"), way, 6.0 / hz as f32, 0.03);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_figure_that_follows_a_pose_is_where_the_pose_is() {
+    let mut sim = Sim::new(60.0);
+    let at = Vec3::new(1.0, 2.0, 3.0);
+    let entity = human(
+        &mut sim,
+        HumanoidDetail::Bodies23,
+        RagdollMode::HitBoxes,
+        at,
+    );
+    sim.ticks(3);
+    let profile = sim.get::<Ragdoll>(entity).profile;
+    let mut findings = Findings::new();
+    for part in bones(&sim, entity) {
+        let planned = profile
+            .bone(sim.get::<Name>(part).as_str())
+            .unwrap()
+            .clone();
+        let pose = sim.get::<Transform>(part);
+        findings.at_most(
+            planned.name.clone(),
+            pose.translation.distance(at + planned.position),
+            1.0e-5,
+        );
+    }
+    // And there is something to hit.
+    use bevy_rapier3d::plugin::ReadRapierContext;
+    let head = bone(&sim, entity, "head");
+    let from = at + Vec3::new(0.0, 1.65, 2.0);
+    let hit = sim
+        .app
+        .world_mut()
+        .run_system_cached_with(
+            |In(from): In<Vec3>, context: ReadRapierContext| {
+                let context = context.single().unwrap();
+                let filter = bevy_rapier3d::prelude::QueryFilter::default();
+                context.cast_ray(from, Vec3::NEG_Z, 5.0, true, filter)
+            },
+            from,
+        )
+        .unwrap();
+    findings.holds("a ray hits the head", hit.is_some_and(|(e, _)| e == head));
+}
+
+#[test]
+fn twenty_switches_in_a_row_move_no_bone_by_a_jump() {
+    let all = [
+        RagdollMode::Limp,
+        RagdollMode::HitBoxes,
+        RagdollMode::Powered,
+        RagdollMode::Frozen,
+        RagdollMode::GettingUp,
+        RagdollMode::Limp,
+        RagdollMode::Partial,
+        RagdollMode::Animated,
+        RagdollMode::Powered,
+        RagdollMode::Animated,
+        RagdollMode::HitBoxes,
+        RagdollMode::Limp,
+        RagdollMode::Frozen,
+        RagdollMode::Limp,
+        RagdollMode::GettingUp,
+        RagdollMode::Powered,
+        RagdollMode::Partial,
+        RagdollMode::Limp,
+        RagdollMode::Animated,
+        RagdollMode::Limp,
+    ];
+    let mut findings = Findings::new();
+    for every in [1, 2, 7] {
+        let mut sim = Sim::new(60.0);
+        sim.floor(0.0);
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies19,
+            RagdollMode::HitBoxes,
+            Vec3::Y * 0.5,
+        );
+        sim.ticks(3);
+        let arm = bone(&sim, entity, "upper_arm_l");
+        edit::<BoneControl>(&mut sim, arm, |c| c.simulated = true);
+        let mut last: Option<Vec<(Vec3, Vec3)>> = None;
+        for (n, mode) in all.into_iter().enumerate() {
+            ask(&mut sim, entity, mode);
+            for _ in 0..every {
+                sim.ticks(1);
+                let state = sim.get::<RagdollState>(entity);
+                let now: Vec<(Vec3, Vec3)> = state
+                    .bones
+                    .iter()
+                    .map(|b| (b.place.position, b.velocity))
+                    .collect();
+                if let Some(last) = &last {
+                    // Of each way of a tick, what neither velocity explains.
+                    let jump = now.iter().zip(last).map(|((p, v), (q, u))| {
+                        let fastest = u.length().max(v.length());
+                        (p.distance(*q) - fastest * sim.dt()).max(0.0)
+                    });
+                    let jump = jump.fold(0.0, f32::max);
+                    findings.at_most(format!("every {every}: {n} {mode:?}: jump, m"), jump, 0.01);
+                }
+                last = Some(now);
+            }
+        }
+        findings.holds("all is finite", finite(&sim, entity));
+        sim.seconds(1.0);
+        findings.holds("all is still finite", finite(&sim, entity));
+    }
+}
+
+#[test]
+fn a_limb_that_is_simulated_leaves_the_others_to_the_pose() {
+    let paths = |limb: Option<&str>| {
+        let mut sim = Sim::new(60.0);
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies19,
+            RagdollMode::Partial,
+            Vec3::Y,
+        );
+        sim.ticks(1);
+        if let Some(limb) = limb {
+            for name in ["upper_arm_l", "forearm_l", "hand_l"] {
+                let part = bone(&sim, entity, name);
+                edit::<BoneControl>(&mut sim, part, |c| c.simulated = true);
+            }
+            let _ = limb;
+        }
+        let mut seen = Vec::new();
+        for _ in 0..30 {
+            run(&mut sim, entity, Vec3::new(1.0, 0.0, 0.0));
+            let arm = ["upper_arm_l", "forearm_l", "hand_l"];
+            for part in bones(&sim, entity) {
+                if !arm.contains(&sim.get::<Name>(part).as_str()) {
+                    seen.push(sim.get::<Transform>(part));
+                }
+            }
+        }
+        seen
+    };
+    let mut findings = Findings::new();
+    findings.same("other bones", &paths(None), &paths(Some("arm")));
+}

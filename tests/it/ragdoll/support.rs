@@ -1,0 +1,147 @@
+//! What the tests of ragdolls share.
+
+use bevy::{math::ops, prelude::*};
+use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::*;
+use embody_scenes::Sim;
+
+pub use crate::support::{Findings, G, RATES, edit, insert};
+
+/// A figure of 75 kg and 1.75 m, spawned with its feet at a point.
+pub fn human(sim: &mut Sim, detail: HumanoidDetail, mode: RagdollMode, at: Vec3) -> Entity {
+    let ragdoll = Ragdoll::new(RagdollProfile::humanoid(detail, 1.75), 75.0);
+    figure(sim, ragdoll, mode, at)
+}
+
+pub fn figure(sim: &mut Sim, ragdoll: Ragdoll, mode: RagdollMode, at: Vec3) -> Entity {
+    let intent = RagdollIntent { mode, ..default() };
+    sim.spawn((ragdoll, intent, Transform::from_translation(at)))
+}
+
+pub fn ask(sim: &mut Sim, ragdoll: Entity, mode: RagdollMode) {
+    edit::<RagdollIntent>(sim, ragdoll, |intent| intent.mode = mode);
+}
+
+pub fn bones(sim: &Sim, ragdoll: Entity) -> Vec<Entity> {
+    let bones = sim.app.world().get::<Bones>(ragdoll);
+    bones.map(|b| b.iter().collect()).unwrap_or_default()
+}
+
+/// A bone by name.
+pub fn bone(sim: &Sim, ragdoll: Entity, name: &str) -> Entity {
+    let all = bones(sim, ragdoll);
+    let found = all.iter().find(|b| sim.get::<Name>(**b).as_str() == name);
+    *found.unwrap_or_else(|| panic!("no bone {name}"))
+}
+
+pub fn outputs(sim: &Sim, ragdoll: Entity) -> Vec<BoneOutput> {
+    let all = bones(sim, ragdoll);
+    all.iter().map(|b| sim.get::<BoneOutput>(*b)).collect()
+}
+
+/// The largest of something over all bones.
+pub fn worst(sim: &Sim, ragdoll: Entity, of: impl Fn(&BoneOutput) -> f32) -> f32 {
+    outputs(sim, ragdoll).iter().map(of).fold(0.0, f32::max)
+}
+
+/// Mass of each bone, kilograms, and velocity of its centre of mass.
+pub fn momentum(sim: &Sim, ragdoll: Entity) -> (Vec3, f32) {
+    let (mut sum, mut mass) = (Vec3::ZERO, 0.0);
+    for bone in bones(sim, ragdoll) {
+        let properties = sim.get::<AdditionalMassProperties>(bone);
+        let AdditionalMassProperties::MassProperties(p) = properties else {
+            continue;
+        };
+        let (out, pose) = (sim.get::<BoneOutput>(bone), sim.get::<Transform>(bone));
+        let arm = pose.rotation * p.local_center_of_mass;
+        sum += (out.velocity + out.spin.cross(arm)) * p.mass;
+        mass += p.mass;
+    }
+    (sum, mass)
+}
+
+/// Whether every bone is somewhere.
+pub fn finite(sim: &Sim, ragdoll: Entity) -> bool {
+    bones(sim, ragdoll).iter().all(|b| {
+        let (pose, out) = (sim.get::<Transform>(*b), sim.get::<BoneOutput>(*b));
+        pose.translation.is_finite()
+            && pose.rotation.is_finite()
+            && out.velocity.is_finite()
+            && out.spin.is_finite()
+    })
+}
+
+/// The same numbers in each run, evenly over −1 to 1.
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn roll(&mut self) -> f32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 40) as f32 / (1u64 << 23) as f32 - 1.0
+    }
+
+    pub fn vec(&mut self) -> Vec3 {
+        Vec3::new(self.roll(), self.roll(), self.roll())
+    }
+
+    /// A direction.
+    pub fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = self.vec();
+            if (0.01..1.0).contains(&v.length_squared()) {
+                return v.normalize();
+            }
+        }
+    }
+
+    /// A rotation by at most this angle, radians.
+    pub fn rotation(&mut self, most: f32) -> Quat {
+        let (sin, cos) = ops::sin_cos(self.roll() * most * 0.5);
+        let axis = self.direction() * sin;
+        Quat::from_xyzw(axis.x, axis.y, axis.z, cos)
+    }
+}
+
+/// Two bones: a heavy block, and an arm of 2 kg and 0.3 m that hangs from it by this joint.
+pub fn arm(joint: JointProfile) -> RagdollProfile {
+    let block = BoneShape::Box {
+        center: Vec3::Y * 0.5,
+        rotation: Quat::IDENTITY,
+        half: Vec3::splat(0.2),
+    };
+    let rod = BoneShape::Capsule {
+        from: Vec3::NEG_Y * 0.05,
+        to: Vec3::NEG_Y * 0.25,
+        radius: 0.05,
+    };
+    RagdollProfile {
+        bones: vec![
+            BoneProfile {
+                name: "block".into(),
+                mass: BoneMass::solid(2.0, &block),
+                shape: block,
+                ..default()
+            },
+            BoneProfile {
+                name: "arm".into(),
+                parent: Some("block".into()),
+                mass: BoneMass::solid(2.0, &rod),
+                shape: rod,
+                joint,
+                ..default()
+            },
+        ],
+        no_contact: vec![],
+    }
+}
+
+/// Axes with X pointing down, along the arm.
+pub fn along_arm() -> Quat {
+    Quat::from_rotation_z(-core::f32::consts::FRAC_PI_2)
+}
