@@ -121,10 +121,11 @@ fn body(bone: &PlannedBone, damping: f32) -> impl Bundle + use<> {
 pub(super) fn wanted(mode: RagdollMode, control: &BoneControl) -> BoneBody {
     match mode {
         RagdollMode::Animated => BoneBody::Off,
-        RagdollMode::HitBoxes | RagdollMode::GettingUp => BoneBody::Kinematic,
-        RagdollMode::Partial if control.simulated => BoneBody::Dynamic,
-        RagdollMode::Partial => BoneBody::Kinematic,
         RagdollMode::Powered | RagdollMode::Limp => BoneBody::Dynamic,
+        RagdollMode::Partial if control.simulated => BoneBody::Dynamic,
+        RagdollMode::HitBoxes | RagdollMode::GettingUp | RagdollMode::Partial => {
+            BoneBody::Kinematic
+        }
         RagdollMode::Frozen => BoneBody::Fixed,
     }
 }

@@ -35,6 +35,7 @@ impl Area<'_> {
     }
 
     /// The area in the world.
+    #[cfg(feature = "vehicle")]
     pub fn in_world(&self) -> Nodes {
         self.nodes(&Pose::IDENTITY)
     }

@@ -15,7 +15,9 @@ mod piece;
 
 use bevy::{math::DQuat, prelude::*};
 
-pub(crate) use break_down::{Area, MOST_BOXES, break_down};
+#[cfg(feature = "vehicle")]
+pub(crate) use break_down::MOST_BOXES;
+pub(crate) use break_down::{Area, break_down};
 pub(crate) use gather::Request;
 pub(crate) use mover::{Mover, MoverPose};
 pub(crate) use piece::{Geometry, Piece};

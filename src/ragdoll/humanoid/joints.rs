@@ -1,6 +1,9 @@
 //! The joints of a human figure, by the ranges that tables of anatomy give.
 
-use bevy::{math::Vec2, prelude::*};
+use bevy::{
+    math::{Vec2, ops},
+    prelude::*,
+};
 
 use super::{
     part::{BodyPart, HumanoidDetail},
@@ -59,7 +62,7 @@ fn hinge(upper: Vec3, lower: Vec3, closes: Vec3, most: f32) -> (Quat, JointKind)
     } else {
         expected
     };
-    let bent = bevy::math::ops::atan2(bend.dot(axis), upper.dot(lower));
+    let bent = ops::atan2(bend.dot(axis), upper.dot(lower));
     let kind = JointKind::Hinge {
         min: -bent,
         max: most.to_radians() - bent,
@@ -71,8 +74,7 @@ fn hinge(upper: Vec3, lower: Vec3, closes: Vec3, most: f32) -> (Quat, JointKind)
 fn strength(part: BodyPart) -> (f32, f32) {
     use BodyPart::*;
     match part {
-        LeftThigh | RightThigh => (5.0, 250.0),
-        LowerSpine | MiddleSpine | UpperSpine | Chest => (5.0, 250.0),
+        LeftThigh | RightThigh | LowerSpine | MiddleSpine | UpperSpine | Chest => (5.0, 250.0),
         LeftShin | RightShin => (2.5, 200.0),
         LeftFoot | RightFoot => (2.5, 150.0),
         LeftClavicle | RightClavicle | LeftUpperArm | RightUpperArm => (2.5, 100.0),

@@ -181,8 +181,8 @@ impl BodyPart {
         }
         match (self, detail) {
             // The middle of the spine goes with its nearer end; the neck goes with the head.
-            (UpperSpine, HumanoidDetail::Bodies15 | HumanoidDetail::Bodies19) => Chest,
-            (MiddleSpine, HumanoidDetail::Bodies15) => Chest,
+            (UpperSpine, HumanoidDetail::Bodies15 | HumanoidDetail::Bodies19)
+            | (MiddleSpine, HumanoidDetail::Bodies15) => Chest,
             (Neck, _) => Head,
             _ => match self.parent() {
                 Some(parent) => parent.body(detail),

@@ -91,10 +91,10 @@ fn despawned_ragdolls_take_their_bones_and_joints_with_them() {
             .query::<&RigidBody>()
             .iter(sim.app.world())
             .count();
-        let mut sets = sim.app.world_mut().query::<(
-            &bevy_rapier3d::plugin::context::RapierContextJoints,
-            &bevy_rapier3d::plugin::context::RapierRigidBodySet,
-        )>();
+        let mut sets = sim
+            .app
+            .world_mut()
+            .query::<(&RapierContextJoints, &RapierRigidBodySet)>();
         let (joints, set) = sets.single(sim.app.world()).unwrap();
         (bodies, joints.impulse_joints.len(), set.bodies.len())
     };
