@@ -188,7 +188,8 @@ impl<'a> Form<'a> {
             match variants::build(self.registry, info, &chosen, value) {
                 Some(new) => self.push(path, Box::new(new)),
                 None => {
-                    warn_once!("{} cannot be made in the panel", info.variant_path(&chosen));
+                    let chosen = info.variant_path(&chosen);
+                    bevy::utils::once!(tracing::warn!("{chosen} cannot be made in the panel"));
                 }
             }
             return;
