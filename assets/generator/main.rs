@@ -75,25 +75,27 @@ fn make(asset: Asset, check: bool) -> Result<String, String> {
     let level = build(asset);
     let bytes =
         glb::encode(&level).map_err(|error| format!("cannot encode {}: {error}", asset.0))?;
+    let triangles = level.nodes.iter().map(|node| node.mesh.triangles());
+    let what = format!(
+        "{} nodes, {} triangles",
+        level.nodes.len(),
+        triangles.sum::<usize>()
+    );
+    deliver(&path, &bytes, check, &what)
+}
+
+/// Writes a file, or checks that it is what would be written; says what came of it.
+fn deliver(path: &Path, bytes: &[u8], check: bool, what: &str) -> Result<String, String> {
     let at = path.display();
     if check {
-        return match std::fs::read(&path) {
+        return match std::fs::read(path) {
             Ok(found) if found == bytes => Ok(format!("{at} is what the generator makes")),
             Ok(_) => Err(format!("{at} is not what the generator makes")),
             Err(error) => Err(format!("cannot read {at}: {error}")),
         };
     }
-    std::fs::write(&path, &bytes).map_err(|error| format!("cannot write {at}: {error}"))?;
-    Ok(format!(
-        "{at}: {} nodes, {} triangles, {} bytes",
-        level.nodes.len(),
-        level
-            .nodes
-            .iter()
-            .map(|node| node.mesh.triangles())
-            .sum::<usize>(),
-        bytes.len()
-    ))
+    std::fs::write(path, bytes).map_err(|error| format!("cannot write {at}: {error}"))?;
+    Ok(format!("{at}: {what}, {} bytes", bytes.len()))
 }
 
 #[cfg(test)]

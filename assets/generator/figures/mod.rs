@@ -39,25 +39,14 @@ fn path(figure: &Figure) -> PathBuf {
 /// Writes or checks the file of a figure; says what came of it.
 pub fn make(figure: &Figure, check: bool) -> Result<String, String> {
     let path = path(figure);
-    let at = path.display();
-    let bytes = encode(figure).map_err(|error| format!("cannot encode {at}: {error}"))?;
-    if check {
-        return match std::fs::read(&path) {
-            Ok(found) if found == bytes => Ok(format!("{at} is what the generator makes")),
-            Ok(_) => Err(format!("{at} is not what the generator makes")),
-            Err(error) => Err(format!("cannot read {at}: {error}")),
-        };
-    }
-    std::fs::write(&path, &bytes).map_err(|error| format!("cannot write {at}: {error}"))?;
-    Ok(format!(
-        "{at}: {} bones, {} clips, {} triangles, {} bytes",
+    let bytes =
+        encode(figure).map_err(|error| format!("cannot encode {}: {error}", path.display()))?;
+    let triangles = figure.shells.iter().map(|shell| shell.triangles.len());
+    let what = format!(
+        "{} bones, {} clips, {} triangles",
         figure.skeleton.bones.len(),
         figure.clips.len(),
-        figure
-            .shells
-            .iter()
-            .map(|shell| shell.triangles.len())
-            .sum::<usize>(),
-        bytes.len()
-    ))
+        triangles.sum::<usize>()
+    );
+    crate::deliver(&path, &bytes, check, &what)
 }
