@@ -72,6 +72,12 @@ impl Place {
         self.local_direction(world - self.origin)
     }
 
+    /// A pose of the world in the station's axes.
+    pub fn local_pose(&self, world: &Transform) -> Transform {
+        Transform::from_translation(self.local_point(world.translation))
+            .with_rotation(self.rotation().inverse() * world.rotation)
+    }
+
     /// The rotation from the station's axes to the world.
     pub fn rotation(&self) -> Quat {
         use core::f32::consts::FRAC_PI_2;

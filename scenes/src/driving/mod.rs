@@ -162,25 +162,13 @@ pub fn drive_stations() -> Vec<DriveStation> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::course::Course;
+    use crate::{course::Course, stations::tests::assert_marked};
 
     #[test]
     fn every_driving_station_starts_where_the_level_marks_it() {
         let level = Course::load(Course::proving_ground_path()).unwrap();
         for station in drive_stations() {
-            let marked = level.start(&station.name);
-            let start = marked.unwrap_or_else(|| panic!("no mark for {}", station.name));
-            let own = station.start();
-            let gap = start.translation.distance(own.translation);
-            assert!(gap < 0.05, "{} starts {gap} m off its mark", station.name);
-            assert!(
-                start.rotation.angle_between(own.rotation) < 1e-3,
-                "{}",
-                station.name
-            );
-            for node in &station.track {
-                assert!(level.node(node).is_some(), "{} has no {node}", station.name);
-            }
+            assert_marked(&level, &station.name, station.start(), &station.track);
         }
     }
 

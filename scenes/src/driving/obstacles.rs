@@ -61,20 +61,25 @@ fn kerb(kerb: Kerb) -> DriveStation {
             let speed = (0.8 * figures.top_speed()).min(4.0).min(0.9 * gentle);
             let end = KERB[0] + KERB[1] + 8.0;
             let most = 2.0 * kerb.height + 0.05;
-            Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 30.0)])
-                .ask(
-                    format!(
-                        "is not thrown: its centre rises by less than {:.0} cm",
-                        100.0 * most
-                    ),
-                    move |trace| {
-                        let got = rise(trace);
-                        Verdict::at_most(got.into(), most.into(), format!("{:.1} cm", 100.0 * got))
-                    },
-                )
-                .ask_upright())
+            Ok(not_thrown(end, speed, 30.0, most))
         },
     )
+}
+
+/// Drives across something that must not lift the centre by more than `most`, metres.
+fn not_thrown(end: f32, speed: f32, timeout: f32, most: f32) -> Plan {
+    Plan::of([DriveStep::ahead(0.0, end, speed, timeout)])
+        .ask(
+            format!(
+                "is not thrown: its centre rises by less than {:.0} cm",
+                100.0 * most
+            ),
+            move |trace| {
+                let got = rise(trace);
+                Verdict::at_most(got.into(), most.into(), format!("{:.1} cm", 100.0 * got))
+            },
+        )
+        .ask_upright()
 }
 
 fn waves() -> DriveStation {
@@ -123,18 +128,7 @@ fn stones() -> DriveStation {
             let speed = if figures.leans() { 2.0 } else { 3.0 };
             let end = rubble::FIELD[0] + rubble::FIELD[1] + 9.0;
             let most = rubble::LARGEST + 0.05;
-            Ok(Plan::of([DriveStep::ahead(0.0, end, speed, 40.0)])
-                .ask(
-                    format!(
-                        "is not thrown: its centre rises by less than {:.0} cm",
-                        100.0 * most
-                    ),
-                    move |trace| {
-                        let got = rise(trace);
-                        Verdict::at_most(got.into(), most.into(), format!("{:.1} cm", 100.0 * got))
-                    },
-                )
-                .ask_upright())
+            Ok(not_thrown(end, speed, 40.0, most))
         },
     )
 }

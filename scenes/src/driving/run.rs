@@ -15,10 +15,7 @@ use super::{
     driver::{DriveStep, Driver, Progress},
     trace::{DriveSample, DriveTrace},
 };
-use crate::{
-    course::{CourseMotion, CourseNode},
-    stations::{CheckResult, StationResult, Verdict},
-};
+use crate::stations::{Played, StationResult, Tracked};
 
 /// A driving station being played. Call [`tick`](Self::tick) once before each fixed tick.
 pub struct DriveRun {
@@ -26,7 +23,7 @@ pub struct DriveRun {
     figures: Figures,
     plan: Plan,
     vehicle: Entity,
-    tracked: Vec<Option<Entity>>,
+    tracked: Tracked,
     trace: DriveTrace,
     driver: Driver,
     step: usize,
@@ -77,25 +74,8 @@ impl DriveRun {
     ) -> Option<Self> {
         let plan = (station.plan)(&figures).ok()?;
         place(world, vehicle, station.start());
-        let mut tracked = Vec::new();
-        let mut missing = Vec::new();
-        for wanted in &station.track {
-            let mut nodes = world.query_filtered::<(Entity, &Name), With<CourseNode>>();
-            let found = nodes
-                .iter(world)
-                .find(|(_, name)| name.as_str() == wanted)
-                .map(|(entity, _)| entity);
-            if found.is_none() {
-                missing.push(wanted.clone());
-            }
-            // What moves by the clock begins with the script.
-            if let Some(node) = found
-                && let Some(mut motion) = world.get_mut::<CourseMotion>(node)
-            {
-                motion.time = 0.0;
-            }
-            tracked.push(found);
-        }
+        let tracked = Tracked::find(world, &station.track);
+        tracked.restart(world);
         let dt = world.resource::<Time<Fixed>>().timestep().as_secs_f64();
         Some(Self {
             station,
@@ -103,11 +83,7 @@ impl DriveRun {
             plan,
             vehicle,
             tracked,
-            trace: DriveTrace {
-                samples: Vec::new(),
-                dt,
-                missing,
-            },
+            trace: DriveTrace::new(dt),
             driver: Driver::default(),
             step: 0,
             in_step: 0.0,
@@ -183,41 +159,18 @@ impl DriveRun {
 
     /// Judges what happened.
     pub fn result(&self) -> StationResult {
-        let played = match &self.stopped {
-            Some(why) => Verdict::new(false, why.clone()),
-            None if self.step < self.plan.steps.len() => {
-                Verdict::new(false, format!("was at step {}", self.step + 1))
-            }
-            None if !self.trace.missing.is_empty() => Verdict::new(
-                false,
-                format!("the level has no node {}", self.trace.missing.join(", ")),
-            ),
-            None => Verdict::new(true, "done"),
-        };
-        let playable = self.trace.missing.is_empty();
-        let mut checks = vec![CheckResult {
-            asked: self.station.describe.clone(),
-            got: played.got,
-            pass: played.pass,
-        }];
-        checks.extend(self.plan.checks.iter().map(|check| {
-            let verdict = if playable {
-                check.judge(&self.trace)
-            } else {
-                Verdict::new(false, "could not be judged")
-            };
-            CheckResult {
-                asked: check.asked.clone(),
-                got: verdict.got,
-                pass: verdict.pass,
-            }
-        }));
-        StationResult {
-            name: format!("{}/{}", self.station.name, self.figures.name),
-            checks,
-            seconds: self.trace.last().map_or(0.0, |sample| sample.time),
-            exempt: None,
-        }
+        StationResult::judge(
+            format!("{}/{}", self.station.name, self.figures.name),
+            &self.station.describe,
+            &Played {
+                stopped: self.stopped.as_deref(),
+                step: self.step,
+                steps: self.plan.steps.len(),
+                tracked: &self.tracked,
+            },
+            &self.plan.checks,
+            &self.trace,
+        )
     }
 
     fn sample(&self, world: &World) -> Option<(DriveSample, f32)> {
@@ -225,14 +178,10 @@ impl DriveRun {
         let vehicle = world.get_entity(self.vehicle).ok()?;
         let transform = vehicle.get::<Transform>()?;
         let velocity = vehicle.get::<Velocity>()?;
-        let local = |pose: &Transform| {
-            Transform::from_translation(place.local_point(pose.translation))
-                .with_rotation(place.rotation().inverse() * pose.rotation)
-        };
-        let pose = local(transform);
+        let pose = place.local_pose(transform);
         let sample = DriveSample {
             step: self.step,
-            time: self.trace.samples.len() as f64 * self.trace.dt,
+            time: self.trace.time(),
             center: pose.transform_point(self.figures.preset.mass.center),
             pose,
             velocity: place.local_direction(velocity.linear),
@@ -242,12 +191,7 @@ impl DriveRun {
                 .iter()
                 .filter_map(|wheel| world.get::<WheelState>(wheel).copied())
                 .collect(),
-            nodes: self
-                .tracked
-                .iter()
-                .filter_map(|entity| world.get::<Transform>((*entity)?))
-                .map(local)
-                .collect(),
+            nodes: self.tracked.poses(world, place),
         };
         // To the right.
         let yaw = -velocity.angular.dot(transform.rotation * Vec3::Y);

@@ -3,6 +3,8 @@
 use bevy::prelude::*;
 use bevy_embody::vehicle::{VehicleTelemetry, WheelState};
 
+use crate::stations::{OfStep, Trace};
+
 /// A vehicle after a tick.
 #[derive(Clone, Debug)]
 pub struct DriveSample {
@@ -36,30 +38,18 @@ impl DriveSample {
     }
 }
 
-/// All samples of a station.
-#[derive(Clone, Debug, Default)]
-pub struct DriveTrace {
-    /// The vehicle at the start and after each tick.
-    pub samples: Vec<DriveSample>,
-    /// Length of a tick, seconds.
-    pub dt: f64,
-    /// Names of the tracked nodes that the level does not have.
-    pub missing: Vec<String>,
-}
-
-impl DriveTrace {
-    /// The ticks of a step of the script.
-    pub fn step(&self, step: usize) -> &[DriveSample] {
-        let first = self.samples.partition_point(|s| s.step < step);
-        let end = self.samples.partition_point(|s| s.step <= step);
-        &self.samples[first..end]
+impl OfStep for DriveSample {
+    fn step(&self) -> usize {
+        self.step
     }
 
-    /// The last sample.
-    pub fn last(&self) -> Option<&DriveSample> {
-        self.samples.last()
+    fn time(&self) -> f64 {
+        self.time
     }
 }
+
+/// All samples of a driving station.
+pub type DriveTrace = Trace<DriveSample>;
 
 /// Mean of a quantity; NaN of nothing, so that what never happened meets no bound.
 pub fn mean<'a>(

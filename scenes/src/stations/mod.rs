@@ -7,9 +7,11 @@
 
 mod check;
 mod report;
+mod result;
 mod run;
 mod script;
 pub mod trace;
+mod tracked;
 
 mod ground;
 mod machines;
@@ -26,9 +28,11 @@ use crate::course::layout::Place;
 
 pub use check::{Check, Verdict};
 pub use report::{print_table, run_headless, run_headless_with, table};
-pub use run::{CheckResult, StationResult, StationRun};
+pub use result::{CheckResult, Played, StationResult};
+pub use run::StationRun;
 pub use script::Step;
-pub use trace::{Sample, Trace};
+pub use trace::{OfStep, Sample, Trace};
+pub use tracked::Tracked;
 
 /// A place of the course with something to do.
 #[derive(Debug)]
@@ -114,26 +118,28 @@ pub fn stations() -> Vec<Station> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::course::Course;
 
+    /// Asserts that a level marks where a station starts and has the nodes that it tracks.
+    pub(crate) fn assert_marked(level: &Course, name: &str, start: Transform, track: &[String]) {
+        let marked = level.start(name);
+        let marked = marked.unwrap_or_else(|| panic!("no mark for {name}"));
+        let gap = marked.translation.distance(start.translation);
+        assert!(gap < 1e-4, "{name} starts {gap} m off its mark");
+        let turn = marked.rotation.angle_between(start.rotation);
+        assert!(turn < 1e-3, "{name} starts {turn} rad off its mark");
+        for node in track {
+            assert!(level.node(node).is_some(), "{name} has no {node}");
+        }
+    }
+
     #[test]
     fn every_station_starts_where_the_level_marks_it_and_tracks_nodes_that_are_there() {
-        let course = Course::load(Course::default_path()).unwrap();
+        let level = Course::load(Course::default_path()).unwrap();
         for station in stations() {
-            let marked = course.start(&station.name);
-            let start = marked.unwrap_or_else(|| panic!("no mark for {}", station.name));
-            let gap = start.translation.distance(station.start.translation);
-            assert!(gap < 1e-4, "{} starts {gap} m off its mark", station.name);
-            assert!(start.rotation.angle_between(station.start.rotation) < 1e-3);
-            for node in &station.track {
-                assert!(
-                    course.node(node).is_some(),
-                    "{} has no {node}",
-                    station.name
-                );
-            }
+            assert_marked(&level, &station.name, station.start, &station.track);
         }
     }
 }

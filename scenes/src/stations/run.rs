@@ -5,51 +5,14 @@ use bevy_embody::character::{
     Character, CharacterContacts, CharacterIntent, CharacterState, Stance,
 };
 
-use super::{Check, Sample, Station, Step, Trace, Verdict};
-use crate::course::CourseNode;
-
-/// What came of a check.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CheckResult {
-    /// What was asked.
-    pub asked: String,
-    /// What happened.
-    pub got: String,
-    /// Whether it is what was asked.
-    pub pass: bool,
-}
-
-/// What came of a station.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StationResult {
-    /// Its name.
-    pub name: String,
-    /// Its checks, the first of which is that the script could be played to its end.
-    pub checks: Vec<CheckResult>,
-    /// Seconds of simulated time that it took.
-    pub seconds: f64,
-    /// Why nothing was asked, if nothing was: what the station has in it is not for this one.
-    pub exempt: Option<String>,
-}
-
-impl StationResult {
-    /// Whether all that was asked happened.
-    pub fn passed(&self) -> bool {
-        self.exempt.is_none() && self.checks.iter().all(|check| check.pass)
-    }
-
-    /// Whether something that was asked did not happen.
-    pub fn failed(&self) -> bool {
-        self.exempt.is_none() && !self.passed()
-    }
-}
+use super::{Sample, Station, StationResult, Step, Trace, result::Played, tracked::Tracked};
 
 /// A station being played. Call [`tick`](Self::tick) once before each fixed tick, best in
 /// `FixedPreUpdate`: there poses are exact, and the course has not moved on yet.
 pub struct StationRun {
     station: Station,
     walker: Entity,
-    tracked: Vec<Option<Entity>>,
+    tracked: Tracked,
     trace: Trace,
     step: usize,
     in_step: f64,
@@ -83,34 +46,13 @@ impl StationRun {
                 CharacterIntent::default(),
             ));
         }
-        let tracked = station
-            .track
-            .iter()
-            .map(|wanted| {
-                let mut nodes = world.query_filtered::<(Entity, &Name), With<CourseNode>>();
-                nodes
-                    .iter(world)
-                    .find(|(_, name)| name.as_str() == wanted)
-                    .map(|(entity, _)| entity)
-            })
-            .collect::<Vec<_>>();
-        let missing = station
-            .track
-            .iter()
-            .zip(&tracked)
-            .filter(|(_, found)| found.is_none())
-            .map(|(name, _)| name.clone())
-            .collect();
+        let tracked = Tracked::find(world, &station.track);
         let dt = world.resource::<Time<Fixed>>().timestep().as_secs_f64();
         Self {
             station,
             walker,
             tracked,
-            trace: Trace {
-                samples: Vec::new(),
-                dt,
-                missing,
-            },
+            trace: Trace::new(dt),
             step: 0,
             in_step: 0.0,
             turned: 0.0,
@@ -199,42 +141,18 @@ impl StationRun {
 
     /// Judges what happened.
     pub fn result(&self) -> StationResult {
-        let steps = self.station.script.len();
-        let played = match &self.stopped {
-            Some(why) => Verdict::new(false, why.clone()),
-            None if self.step < steps => {
-                Verdict::new(false, format!("was at step {} of {steps}", self.step + 1))
-            }
-            None if !self.trace.missing.is_empty() => Verdict::new(
-                false,
-                format!("the level has no node {}", self.trace.missing.join(", ")),
-            ),
-            None => Verdict::new(true, "done"),
-        };
-        let judged = |check: &Check, verdict: Verdict| CheckResult {
-            asked: check.asked.clone(),
-            got: verdict.got,
-            pass: verdict.pass,
-        };
-        let playable = self.trace.missing.is_empty();
-        let mut checks = vec![CheckResult {
-            asked: self.station.describe.clone(),
-            got: played.got,
-            pass: played.pass,
-        }];
-        checks.extend(self.station.checks.iter().map(|check| {
-            if playable {
-                judged(check, check.judge(&self.trace))
-            } else {
-                judged(check, Verdict::new(false, "could not be judged"))
-            }
-        }));
-        StationResult {
-            name: self.station.name.clone(),
-            checks,
-            seconds: self.trace.last().map_or(0.0, |sample| sample.time),
-            exempt: None,
-        }
+        StationResult::judge(
+            self.station.name.clone(),
+            &self.station.describe,
+            &Played {
+                stopped: self.stopped.as_deref(),
+                step: self.step,
+                steps: self.station.script.len(),
+                tracked: &self.tracked,
+            },
+            &self.station.checks,
+            &self.trace,
+        )
     }
 
     fn sample(&self, world: &World) -> Option<Sample> {
@@ -244,13 +162,9 @@ impl StationRun {
         let state = walker.get::<CharacterState>()?;
         let contacts = walker.get::<CharacterContacts>()?;
         walker.get::<Character>()?;
-        let local = |pose: &Transform| {
-            Transform::from_translation(place.local_point(pose.translation))
-                .with_rotation(place.rotation().inverse() * pose.rotation)
-        };
         Some(Sample {
             step: self.step,
-            time: self.trace.samples.len() as f64 * self.trace.dt,
+            time: self.trace.time(),
             foot: place.local_point(transform.translation),
             velocity: place.local_direction(state.velocity),
             up: place.local_direction(state.up),
@@ -258,12 +172,7 @@ impl StationRun {
             ground: state.ground.state,
             mode: state.mode,
             refused: contacts.stance_refused.is_some(),
-            nodes: self
-                .tracked
-                .iter()
-                .filter_map(|entity| world.get::<Transform>((*entity)?))
-                .map(local)
-                .collect(),
+            nodes: self.tracked.poses(world, place),
         })
     }
 

@@ -35,34 +35,61 @@ impl Sample {
     }
 }
 
-/// All samples of a station.
-#[derive(Clone, Debug, Default)]
-pub struct Trace {
-    /// The walker at the start and after each tick.
-    pub samples: Vec<Sample>,
-    /// Length of a tick, seconds.
-    pub dt: f64,
-    /// Names of the tracked nodes that the level does not have.
-    pub missing: Vec<String>,
+/// A sample that belongs to a step of a script.
+pub trait OfStep {
+    /// The step, from 0.
+    fn step(&self) -> usize;
+    /// Seconds since the start.
+    fn time(&self) -> f64;
 }
 
-impl Trace {
+impl OfStep for Sample {
+    fn step(&self) -> usize {
+        self.step
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+}
+
+/// All samples of a station.
+#[derive(Clone, Debug)]
+pub struct Trace<S = Sample> {
+    /// The walker or driver at the start and after each tick.
+    pub samples: Vec<S>,
+    /// Length of a tick, seconds.
+    pub dt: f64,
+}
+
+impl<S: OfStep> Trace<S> {
+    /// An empty trace of ticks of this length, seconds.
+    pub fn new(dt: f64) -> Self {
+        Self {
+            samples: Vec::new(),
+            dt,
+        }
+    }
+
+    /// Seconds since the start of the sample that comes next.
+    pub fn time(&self) -> f64 {
+        self.samples.len() as f64 * self.dt
+    }
+
     /// The ticks of a step of the script; the sample before its first tick is not among them.
-    pub fn step(&self, step: usize) -> &[Sample] {
-        let first = self.samples.partition_point(|s| s.step < step);
-        let end = self.samples.partition_point(|s| s.step <= step);
-        &self.samples[first..end]
+    pub fn step(&self, step: usize) -> &[S] {
+        self.steps(step..step + 1)
     }
 
     /// The ticks of several steps.
-    pub fn steps(&self, steps: core::ops::Range<usize>) -> &[Sample] {
-        let first = self.samples.partition_point(|s| s.step < steps.start);
-        let end = self.samples.partition_point(|s| s.step < steps.end);
+    pub fn steps(&self, steps: core::ops::Range<usize>) -> &[S] {
+        let first = self.samples.partition_point(|s| s.step() < steps.start);
+        let end = self.samples.partition_point(|s| s.step() < steps.end);
         &self.samples[first..end]
     }
 
     /// The last sample.
-    pub fn last(&self) -> Option<&Sample> {
+    pub fn last(&self) -> Option<&S> {
         self.samples.last()
     }
 }

@@ -10,6 +10,7 @@ mod units;
 mod variants;
 #[cfg(feature = "vehicle")]
 mod vehicle;
+mod window;
 
 use bevy::prelude::*;
 use bevy_egui::{EguiPlugin, EguiPrimaryContextPass};

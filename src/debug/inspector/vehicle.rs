@@ -4,7 +4,7 @@ use arrayvec::ArrayVec;
 use bevy::{ecs::query::QueryData, math::ops, prelude::*};
 use bevy_egui::{
     EguiContexts, EguiPrimaryContextPass,
-    egui::{self, CollapsingHeader, Color32, Grid, ScrollArea, Ui},
+    egui::{CollapsingHeader, Color32, Grid, Ui},
 };
 use egui_plot::{Corner, Legend, Line, Plot, PlotPoints, Points};
 
@@ -12,10 +12,10 @@ use super::{
     InspectorPanel,
     edits::TuningEdits,
     fields::Form,
-    panel::choose,
     pick, plots,
     record::{Record, Timed},
     units::vehicle_unit,
+    window::{self, Subject},
 };
 use crate::vehicle::{Vehicle, VehicleState, VehicleTelemetry, Wheel, WheelState, Wheels};
 
@@ -104,54 +104,34 @@ fn show(
     wheels: Query<(&Wheel, &WheelState)>,
     names: Query<&Name>,
 ) -> Result {
-    let context = contexts.ctx_mut()?;
-    let name = |entity: Entity| {
-        names
-            .get(entity)
-            .map_or_else(|_| entity.to_string(), ToString::to_string)
-    };
-    let mut open = panel.open;
-    egui::Window::new("Vehicle")
-        .id(egui::Id::new("embody vehicle"))
-        .open(&mut open)
-        .default_pos([16.0, 16.0])
-        .default_width(340.0)
-        .default_height(560.0)
-        .show(context, |ui| {
-            let mut all: Vec<Entity> = vehicles.iter().map(|(entity, _)| entity).collect();
-            all.sort_unstable();
-            if all.len() > 1 {
-                choose(ui, &mut panel.vehicle, &all, name);
+    window::show(
+        contexts.ctx_mut()?,
+        &mut panel,
+        Subject::Vehicle,
+        vehicles.iter(),
+        &names,
+        |ui, seconds, entity, shown| {
+            plot(ui, &record, seconds);
+            CollapsingHeader::new("Wheels")
+                .default_open(true)
+                .show(ui, |ui| table(ui, &shown, &wheels));
+            let registry = registry.read();
+            CollapsingHeader::new("Vehicle")
+                .default_open(true)
+                .show(ui, |ui| {
+                    Form::new(&registry, &mut edits, entity, vehicle_unit)
+                        .component(ui, shown.vehicle);
+                });
+            for (i, wheel) in shown.wheels.iter().enumerate() {
+                let Ok((config, _)) = wheels.get(wheel) else {
+                    continue;
+                };
+                CollapsingHeader::new(format!("Wheel {}", i + 1)).show(ui, |ui| {
+                    Form::new(&registry, &mut edits, wheel, vehicle_unit).component(ui, config);
+                });
             }
-            let Some((entity, shown)) = pick(panel.vehicle, vehicles.iter()) else {
-                ui.weak("there is no vehicle");
-                return;
-            };
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                plot(ui, &record, panel.seconds);
-                CollapsingHeader::new("Wheels")
-                    .default_open(true)
-                    .show(ui, |ui| table(ui, &shown, &wheels));
-                let registry = registry.read();
-                CollapsingHeader::new("Vehicle")
-                    .default_open(true)
-                    .show(ui, |ui| {
-                        Form::new(&registry, &mut edits, entity, vehicle_unit)
-                            .component(ui, shown.vehicle);
-                    });
-                for (i, wheel) in shown.wheels.iter().enumerate() {
-                    let Ok((config, _)) = wheels.get(wheel) else {
-                        continue;
-                    };
-                    CollapsingHeader::new(format!("Wheel {}", i + 1)).show(ui, |ui| {
-                        Form::new(&registry, &mut edits, wheel, vehicle_unit).component(ui, config);
-                    });
-                }
-            });
-        });
-    if panel.open != open {
-        panel.open = open;
-    }
+        },
+    );
     Ok(())
 }
 

@@ -108,20 +108,16 @@ mod tests {
         near(curve.slope(), 19.0, 1.0e-5);
     }
 
+    /// A peak at a slip of 0.1, four fifths of it from 0.5 on.
+    fn free() -> TireModel {
+        let point = |slip, force| SlipPoint { slip, force };
+        TireModel::Curve {
+            points: vec![point(0.1, 1.0), point(0.5, 0.8)],
+        }
+    }
+
     #[test]
     fn every_slope_is_the_derivative_of_its_force() {
-        let free = TireModel::Curve {
-            points: vec![
-                SlipPoint {
-                    slip: 0.1,
-                    force: 1.0,
-                },
-                SlipPoint {
-                    slip: 0.5,
-                    force: 0.8,
-                },
-            ],
-        };
         let models = [
             TireModel::Linear { stiffness: 10.0 },
             TireModel::Brush { stiffness: 10.0 },
@@ -130,7 +126,7 @@ mod tests {
                 c: 1.6,
                 e: 0.5,
             },
-            free,
+            free(),
         ];
         for model in &models {
             let curve = AxisCurve::new(model, 1.0, 1.0);
@@ -150,18 +146,7 @@ mod tests {
 
     #[test]
     fn a_free_curve_goes_through_its_points_and_stays_at_the_last() {
-        let free = TireModel::Curve {
-            points: vec![
-                SlipPoint {
-                    slip: 0.1,
-                    force: 1.0,
-                },
-                SlipPoint {
-                    slip: 0.5,
-                    force: 0.8,
-                },
-            ],
-        };
+        let free = free();
         let curve = AxisCurve::new(&free, 1.0, 1.0);
         near(curve.at(0.05).0, 0.5, 1.0e-6);
         near(curve.at(0.1).0, 1.0, 1.0e-6);

@@ -48,6 +48,16 @@ fn seat(angle: f32) -> Vec3 {
     Vec3::NEG_X * (0.3 / ops::sin(angle * 0.5))
 }
 
+/// A character this far, metres, before it touches both walls of a corner of boxes.
+fn before_corner(hz: f64, degrees: f32, gap: f32) -> (Sim, Entity) {
+    let angle = degrees.to_radians();
+    let mut sim = Sim::new(hz);
+    sim.floor(0.0);
+    sim.corner(Make::Boxes, Vec3::ZERO, angle);
+    let walker = runner(&mut sim, seat(angle) + Vec3::NEG_X * gap);
+    (sim, walker)
+}
+
 fn corner_held(make: Make) {
     let mut found = Findings::new();
     for hz in RATES {
@@ -92,12 +102,7 @@ fn running_into_a_corner_does_not_swing_from_wall_to_wall() {
     let mut found = Findings::new();
     for hz in RATES {
         for degrees in ANGLES {
-            let angle = degrees.to_radians();
-            let mut sim = Sim::new(hz);
-            sim.floor(0.0);
-            sim.corner(Make::Boxes, Vec3::ZERO, angle);
-            let foot = seat(angle) + Vec3::NEG_X;
-            let walker = runner(&mut sim, foot);
+            let (mut sim, walker) = before_corner(hz, degrees, 1.0);
             sim.seconds(0.2);
             sim.walk(walker, Vec3::X);
             // One metre of run-up and the first touch; then the 200 ticks.
@@ -117,11 +122,7 @@ fn leaving_a_corner_is_as_fast_as_on_open_ground() {
     let mut found = Findings::new();
     for hz in RATES {
         for degrees in ANGLES {
-            let angle = degrees.to_radians();
-            let mut sim = Sim::new(hz);
-            sim.floor(0.0);
-            sim.corner(Make::Boxes, Vec3::ZERO, angle);
-            let walker = runner(&mut sim, seat(angle) + Vec3::NEG_X * 0.01);
+            let (mut sim, walker) = before_corner(hz, degrees, 0.01);
             sim.walk(walker, Vec3::X);
             sim.seconds(0.5);
             let start = sim.position(walker).x;

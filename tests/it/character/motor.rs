@@ -15,6 +15,14 @@ fn on_floor(hz: f64, motor: CharacterMotor) -> (Sim, Entity) {
     (sim, who)
 }
 
+/// A character with this motor high above nothing.
+fn in_air(hz: f64, motor: CharacterMotor) -> (Sim, Entity) {
+    let mut sim = Sim::new(hz);
+    let at = Transform::from_xyz(0.0, 100.0, 0.0);
+    let who = sim.spawn((Character::default(), motor, at));
+    (sim, who)
+}
+
 #[test]
 fn ground_acceleration_and_friction_are_those_asked_for() {
     let mut found = Findings::new();
@@ -166,16 +174,11 @@ fn a_free_fall_follows_the_parabola() {
     let mut found = Findings::new();
     for hz in RATES {
         for scale in [1.0, 0.25, 2.0] {
-            let mut sim = Sim::new(hz);
             let motor = CharacterMotor {
                 gravity_scale: scale,
                 ..default()
             };
-            let who = sim.spawn((
-                Character::default(),
-                motor,
-                Transform::from_xyz(0.0, 100.0, 0.0),
-            ));
+            let (mut sim, who) = in_air(hz, motor);
             sim.ticks(2);
             let (start, speed) = (sim.position(who).y, sim.state(who).velocity.y);
             sim.seconds(1.0);
@@ -226,16 +229,11 @@ fn negative_gravity_takes_a_character_off_the_ground_at_once() {
 fn gravity_can_be_set_in_place_of_the_worlds() {
     let mut found = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let motor = CharacterMotor {
             gravity: Some(3.0),
             ..default()
         };
-        let who = sim.spawn((
-            Character::default(),
-            motor,
-            Transform::from_xyz(0.0, 100.0, 0.0),
-        ));
+        let (mut sim, who) = in_air(hz, motor);
         sim.seconds(2.0);
         found.within(format!("{hz} Hz"), -sim.state(who).velocity.y, 6.0, 0.02);
     }
@@ -245,16 +243,11 @@ fn gravity_can_be_set_in_place_of_the_worlds() {
 fn the_fall_is_limited_to_its_greatest_speed() {
     let mut found = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let motor = CharacterMotor {
             max_fall_speed: 12.0,
             ..default()
         };
-        let who = sim.spawn((
-            Character::default(),
-            motor,
-            Transform::from_xyz(0.0, 100.0, 0.0),
-        ));
+        let (mut sim, who) = in_air(hz, motor);
         sim.seconds(2.0);
         let start = sim.position(who).y;
         sim.seconds(1.0);
@@ -266,16 +259,11 @@ fn the_fall_is_limited_to_its_greatest_speed() {
 fn steering_in_the_air_accelerates_as_asked_and_momentum_is_kept() {
     let mut found = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let motor = CharacterMotor {
             air_acceleration: 6.0,
             ..prompt()
         };
-        let who = sim.spawn((
-            Character::default(),
-            motor,
-            Transform::from_xyz(0.0, 100.0, 0.0),
-        ));
+        let (mut sim, who) = in_air(hz, motor);
         sim.ticks(2);
         sim.walk(who, Vec3::X);
         sim.seconds(0.5);

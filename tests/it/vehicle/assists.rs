@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::Sleeping;
 use embody_scenes::Sim;
 
 use super::support::*;
@@ -33,25 +34,38 @@ fn traction_control_keeps_driven_wheels_from_spinning() {
     }
 }
 
+/// A car let go on a hill of 10 degrees stays for the time of its hill hold, seconds, then rolls.
+fn held_then_rolls(found: &mut Findings, hz: f64, time: f32, with: impl Bundle) {
+    let rotation = uphill(10.0);
+    let mut sim = Sim::new(hz);
+    plane(&mut sim, rotation);
+    let car = Plan::reference().park(&mut sim, rotation);
+    insert(&mut sim, car.body, (HillHold { time }, with));
+    car.ask(&mut sim, |i| i.brake = 1.0);
+    sim.seconds(4.0);
+    let start = car.pose(&sim).translation;
+    car.ask(&mut sim, |i| i.brake = 0.0);
+    sim.seconds(f64::from(time) - 0.1);
+    let held = (car.pose(&sim).translation - start).length();
+    found.at_most(format!("{hz} Hz: held"), held, 0.001);
+    sim.seconds(1.1);
+    let rolled = (car.pose(&sim).translation - start).length();
+    found.at_least(format!("{hz} Hz: rolls"), rolled, 0.5);
+}
+
 #[test]
 fn hill_hold_keeps_the_car_for_its_time_and_no_longer() {
     let mut found = Findings::new();
     for hz in RATES {
-        let rotation = uphill(10.0);
-        let mut sim = Sim::new(hz);
-        plane(&mut sim, rotation);
-        let car = Plan::reference().park(&mut sim, rotation);
-        insert(&mut sim, car.body, HillHold { time: 2.0 });
-        car.ask(&mut sim, |i| i.brake = 1.0);
-        sim.seconds(4.0);
-        let start = car.pose(&sim).translation;
-        car.ask(&mut sim, |i| i.brake = 0.0);
-        sim.seconds(1.9);
-        let held = (car.pose(&sim).translation - start).length();
-        found.at_most(format!("{hz} Hz: held"), held, 0.001);
-        sim.seconds(1.1);
-        let rolled = (car.pose(&sim).translation - start).length();
-        found.at_least(format!("{hz} Hz: rolls"), rolled, 0.5);
+        held_then_rolls(&mut found, hz, 2.0, ());
+    }
+}
+
+#[test]
+fn a_car_that_hill_hold_keeps_does_not_sleep_through_its_end() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        held_then_rolls(&mut found, hz, 8.0, Sleeping::default());
     }
 }
 

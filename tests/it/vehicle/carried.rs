@@ -150,32 +150,6 @@ fn a_sleeping_car_on_a_hill_slides_when_the_road_freezes() {
 }
 
 #[test]
-fn a_car_that_hill_hold_keeps_does_not_sleep_through_its_end() {
-    let mut found = Findings::new();
-    for hz in RATES {
-        let rotation = uphill(10.0);
-        let mut sim = Sim::new(hz);
-        plane(&mut sim, rotation);
-        let car = Plan::reference().park(&mut sim, rotation);
-        insert(
-            &mut sim,
-            car.body,
-            (HillHold { time: 8.0 }, Sleeping::default()),
-        );
-        car.ask(&mut sim, |i| i.brake = 1.0);
-        sim.seconds(4.0);
-        let start = car.pose(&sim).translation;
-        car.ask(&mut sim, |i| i.brake = 0.0);
-        sim.seconds(7.5);
-        let held = (car.pose(&sim).translation - start).length();
-        found.at_most(format!("{hz} Hz: held"), held, 0.001);
-        sim.seconds(2.0);
-        let rolled = (car.pose(&sim).translation - start).length();
-        found.at_least(format!("{hz} Hz: rolls"), rolled, 0.5);
-    }
-}
-
-#[test]
 fn surfaces_of_no_numbers_count_as_plain_ones() {
     let mut found = Findings::new();
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1.0e38] {
