@@ -168,7 +168,7 @@ mod tests {
     fn every_driving_station_starts_where_the_level_marks_it() {
         let level = Course::load(Course::proving_ground_path()).unwrap();
         for station in drive_stations() {
-            assert_marked(&level, &station.name, station.start(), &station.track);
+            assert_marked(&level, &station.name, station.start(), 0.05, &station.track);
         }
     }
 

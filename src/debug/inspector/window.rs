@@ -67,7 +67,7 @@ pub(super) fn show<D>(
         .open(&mut open)
         .default_pos([16.0, 16.0])
         .default_width(340.0)
-        .default_height(560.0)
+        .default_height(500.0)
         .show(context, |ui| {
             let mut all: Vec<(Entity, D)> = all.collect();
             all.sort_unstable_by_key(|(entity, _)| *entity);
