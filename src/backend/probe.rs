@@ -12,7 +12,10 @@ use bevy_rapier3d::{
         geometry::{Aabb, InteractionGroups},
         math::Pose,
         parry::{
-            query::{ShapeCastOptions, cast_shapes},
+            query::{
+                ShapeCastOptions, cast_shapes,
+                gjk::{VoronoiSimplex, directional_distance},
+            },
             shape::{Ball, Capsule, Cuboid as ParryCuboid, Cylinder, HalfSpace, Shape, Triangle},
         },
     },
@@ -184,6 +187,9 @@ impl Ground {
                 (Geometry::Triangle(triangle), _, Some(wheel)) => wheel
                     .cast(triangle, reach)
                     .map(|touch| (touch.distance, touch.point, touch.normal)),
+                (Geometry::Cuboid(cuboid), _, Some(wheel)) => wheel
+                    .cast_box(cuboid, reach)
+                    .map(|touch| (touch.distance, touch.point, touch.normal)),
                 (geometry, ..) => cast(geometry, probe, start, reach),
             };
             let Some((distance, point, normal)) = hit else {
@@ -224,59 +230,81 @@ impl Ground {
 
 /// A swept shape against any piece: distance, point, normal.
 fn cast(geometry: &Geometry, probe: &Probe, start: Vec3, reach: f32) -> Option<(f32, Vec3, Vec3)> {
-    let against = |shape: &dyn Shape, position: Vec3, rotation: Quat| {
-        let options = ShapeCastOptions {
-            max_time_of_impact: reach,
-            // A shape that starts inside something moves on until it is out.
-            stop_at_penetration: false,
-            ..ShapeCastOptions::default()
-        };
+    let swept = |piece: &dyn Shape, position: Vec3, rotation: Quat| {
         let at = Pose::from_parts(position, rotation);
-        let with = |moved: &dyn Shape, turn: Quat| {
-            let from = Pose::from_parts(start, turn);
-            cast_shapes(
-                &at,
-                Vec3::ZERO,
-                shape,
-                &from,
-                probe.direction,
-                moved,
-                options,
-            )
-        };
-        let hit = match probe.shape {
+        let from = |turn: Quat| at.inverse() * Pose::from_parts(start, turn);
+        let way = rotation.inverse() * probe.direction;
+        let (distance, point, normal) = match probe.shape {
             ProbeShape::Ray => return None,
-            ProbeShape::Ball(radius) => with(&Ball::new(radius), probe.rotation),
+            ProbeShape::Ball(radius) => {
+                let ball = Ball::new(radius);
+                sweep(piece, &ball, radius, &from(probe.rotation), way, reach)
+            }
             ProbeShape::Wheel(radius, half) => {
                 // Parry's cylinders stand along Y.
                 let upright = Quat::from_rotation_z(core::f32::consts::FRAC_PI_2);
-                with(&Cylinder::new(half, radius), probe.rotation * upright)
+                let cylinder = Cylinder::new(half, radius);
+                let from = from(probe.rotation * upright);
+                let around = Vec2::new(radius, half).length();
+                sweep(piece, &cylinder, around, &from, way, reach)
             }
-        };
-        let hit = hit.ok()??;
-        // In the axes of the piece.
-        Some((
-            hit.time_of_impact,
-            at * hit.witness1,
-            rotation * hit.normal1,
-        ))
+        }?;
+        Some((distance, at * point, rotation * normal))
     };
     match geometry {
-        Geometry::Triangle(t) => against(&Triangle::new(t.a, t.b, t.c), Vec3::ZERO, Quat::IDENTITY),
-        Geometry::Cuboid(c) => against(&ParryCuboid::new(c.half), c.center, c.rotation),
-        Geometry::Ball { center, radius } => against(&Ball::new(*radius), *center, Quat::IDENTITY),
+        Geometry::Triangle(t) => swept(&Triangle::new(t.a, t.b, t.c), Vec3::ZERO, Quat::IDENTITY),
+        Geometry::Cuboid(c) => swept(&ParryCuboid::new(c.half), c.center, c.rotation),
+        Geometry::Ball { center, radius } => swept(&Ball::new(*radius), *center, Quat::IDENTITY),
         Geometry::Capsule { a, b, radius } => {
-            against(&Capsule::new(*a, *b, *radius), Vec3::ZERO, Quat::IDENTITY)
+            swept(&Capsule::new(*a, *b, *radius), Vec3::ZERO, Quat::IDENTITY)
         }
         Geometry::HalfSpace { point, normal } => {
-            against(&HalfSpace::new(*normal), *point, Quat::IDENTITY)
+            swept(&HalfSpace::new(*normal), *point, Quat::IDENTITY)
         }
         Geometry::Convex {
             shape,
             position,
             rotation,
-        } => against(&**shape, *position, *rotation),
+        } => swept(&**shape, *position, *rotation),
     }
+}
+
+/// Less than this is no way at all, metres: there the normals of [`directional_distance`] are noise.
+const TOUCHING: f32 = 1.0e-4;
+
+/// A convex shape `moved` from a pose along a way of unit length until it meets `piece`, all in the axes
+/// of the piece. One that touches at the start is held by the point nearest to its middle, if that is
+/// ahead and not farther away than its `radius`: a search for the way out would need memory of its own.
+fn sweep(
+    piece: &dyn Shape,
+    moved: &impl Shape,
+    radius: f32,
+    from: &Pose,
+    way: Vec3,
+    reach: f32,
+) -> Option<(f32, Vec3, Vec3)> {
+    if piece.as_shape::<HalfSpace>().is_some() {
+        let options = ShapeCastOptions {
+            max_time_of_impact: reach,
+            stop_at_penetration: false,
+            ..ShapeCastOptions::default()
+        };
+        let identity = Pose::IDENTITY;
+        let hit = cast_shapes(&identity, Vec3::ZERO, piece, from, way, moved, options).ok()??;
+        return Some((hit.time_of_impact, hit.witness1, hit.normal1));
+    }
+    let (a, b) = (piece.as_support_map()?, moved.as_support_map()?);
+    let simplex = &mut VoronoiSimplex::new();
+    let (distance, normal, point, _) = directional_distance(from, a, b, way, simplex)?;
+    if distance >= TOUCHING {
+        return (distance <= reach).then_some((distance, point, normal));
+    }
+    let middle = from.translation;
+    let nearest = piece.project_local_point(middle, true);
+    let arm = middle - nearest.point;
+    let normal = arm.try_normalize()?;
+    let held = !nearest.is_inside && arm.length() <= radius + TOUCHING && normal.dot(way) < 0.0;
+    held.then_some((0.0, nearest.point, normal))
 }
 
 impl Geometry {

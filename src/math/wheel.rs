@@ -1,14 +1,17 @@
-//! A wheel, moved along a line, against a triangle: where it first touches, in closed form.
+//! A wheel, moved along a line, against a flat face: where it first touches, in closed form.
 //!
-//! In the wheel's plane its tread is a circle. What of the triangle lies within the wheel's width is a
+//! In the wheel's plane its tread is a circle. What of the face lies within the wheel's width is a
 //! polygon, and seen along the axle the polygon is a flat convex figure; the circle meets that at a
 //! vertex or an edge. A cast that leans along the axle (camber) shifts the width as it goes; the width
 //! is taken where the lowest point of the tread is then.
+//!
+//! Faces are triangles, and the sides of boxes that look against the way: what comes from outside
+//! touches no other side first.
 
 use arrayvec::ArrayVec;
-use bevy::math::{Vec2, Vec3};
+use bevy::math::{Mat3, Vec2, Vec3};
 
-use super::triangle::Triangle;
+use super::{cuboid::Cuboid, triangle::Triangle};
 
 /// A wheel at the start of its way.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +53,7 @@ struct Corner {
     edge: Vec3,
 }
 
-/// What of a triangle the tread touches.
+/// What of a face the tread touches.
 #[derive(Clone, Copy)]
 enum Feature {
     /// An edge or a corner, with the tread.
@@ -91,9 +94,61 @@ impl WheelCast {
     /// Where the wheel first touches a triangle within `reach` metres of way. One that it starts in is
     /// touched at once if the wheel moves farther in, else not at all.
     pub fn cast(&self, triangle: &Triangle, reach: f32) -> Option<WheelTouch> {
+        let corners = [triangle.a, triangle.b, triangle.c].map(|p| p - self.center);
+        self.cast_face(corners, triangle.normal, reach)
+    }
+
+    /// The same with a box, which has an inside, but no face that looks along the way.
+    pub fn cast_box(&self, cuboid: &Cuboid, reach: f32) -> Option<WheelTouch> {
+        let turn = Mat3::from_quat(cuboid.rotation);
+        let center = turn.transpose() * (self.center - cuboid.center);
+        let way = turn.transpose() * self.direction();
+        // Of a face only what is near: huge boxes have corners of few digits.
+        let far = Vec3::splat(reach + self.radius + self.half);
+        let low = (-cuboid.half).max(center - far) - center;
+        let high = cuboid.half.min(center + far) - center;
+        let mut first: Option<WheelTouch> = None;
+        for axis in 0..3 {
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            if !(way[axis].abs() > 1.0e-6) || !(low[u] < high[u] && low[v] < high[v]) {
+                continue;
+            }
+            let side = -way[axis].signum();
+            let height = side * cuboid.half[axis] - center[axis];
+            let corner = |a: f32, b: f32| {
+                let mut at = Vec3::ZERO;
+                (at[axis], at[u], at[v]) = (height, a, b);
+                turn * at
+            };
+            let corners = [
+                corner(low[u], low[v]),
+                corner(high[u], low[v]),
+                corner(high[u], high[v]),
+                corner(low[u], high[v]),
+            ];
+            let reach = first.map_or(reach, |touch| touch.distance);
+            if let Some(touch) = self.cast_face(corners, turn.col(axis) * side, reach)
+                && first.is_none_or(|first| touch.distance < first.distance)
+            {
+                first = Some(touch);
+            }
+        }
+        first
+    }
+
+    fn direction(&self) -> Vec3 {
+        self.along * self.pace + self.axle * self.drift
+    }
+
+    /// The same with a convex face; its corners in order, relative to the wheel's start.
+    fn cast_face<const N: usize>(
+        &self,
+        corners: [Vec3; N],
+        normal: Vec3,
+        reach: f32,
+    ) -> Option<WheelTouch> {
         let lean = self.drift / self.pace;
-        let corners = [triangle.a, triangle.b, triangle.c].map(|p| {
-            let p = p - self.center;
+        let corners = corners.map(|p| {
             let s = p.dot(self.along);
             Corner {
                 aside: p.dot(self.axle) - lean * (s - self.radius),
@@ -131,8 +186,7 @@ impl WheelCast {
         }
         let arm = at - Vec2::new(way, 0.0);
         let radial = self.along * arm.x + self.across * arm.y;
-        let direction = self.along * self.pace + self.axle * self.drift;
-        let face = triangle.normal * -triangle.normal.dot(radial).signum();
+        let face = normal * -normal.dot(radial).signum();
         let normal = match feature {
             Feature::Edge => -radial.normalize_or(self.along),
             Feature::Face => face,
@@ -147,7 +201,7 @@ impl WheelCast {
         };
         Some(WheelTouch {
             distance,
-            point: self.center + direction * distance + radial,
+            point: self.center + self.direction() * distance + radial,
             normal,
         })
     }
@@ -249,6 +303,8 @@ fn nearest(polygon: &Corners) -> Option<First> {
 
 #[cfg(test)]
 mod tests {
+    use bevy::math::Quat;
+
     use super::*;
 
     fn down(center: Vec3) -> WheelCast {
@@ -351,5 +407,66 @@ mod tests {
             }
         }
         assert!(hits > 300, "{hits}");
+    }
+
+    #[test]
+    fn a_box_is_touched_as_the_triangles_of_its_surface_are() {
+        let mut seed = 5u32;
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        let mut hits = 0;
+        for _ in 0..2000 {
+            let mut v = || Vec3::new(next(), next(), next());
+            let cuboid = Cuboid {
+                center: v() * 0.6,
+                rotation: Quat::from_scaled_axis(v() * 2.0),
+                half: v().abs() * 0.5 + 0.05,
+            };
+            let wheel = down(Vec3::Y * 2.5);
+            let corner = |x: f32, y: f32, z: f32| {
+                cuboid.center + cuboid.rotation * (cuboid.half * Vec3::new(x, y, z))
+            };
+            let mut least = f32::MAX;
+            for axis in 0..3 {
+                for side in [-1.0, 1.0] {
+                    let at = |u: f32, v: f32| {
+                        let mut p = [side; 3];
+                        (p[(axis + 1) % 3], p[(axis + 2) % 3]) = (u, v);
+                        corner(p[0], p[1], p[2])
+                    };
+                    let (a, b, c, d) = (at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0));
+                    for t in [triangle(a, b, c), triangle(a, c, d)] {
+                        if let Some(touch) = wheel.cast(&t, 5.0) {
+                            least = least.min(touch.distance);
+                        }
+                    }
+                }
+            }
+            match wheel.cast_box(&cuboid, 5.0) {
+                Some(touch) => {
+                    hits += 1;
+                    assert!((touch.distance - least).abs() < 1.0e-4, "{touch:?} {least}");
+                    assert!(touch.normal.y > 0.0, "{touch:?}");
+                }
+                None => assert!(least == f32::MAX, "{cuboid:?} {least}"),
+            }
+        }
+        assert!(hits > 500, "{hits}");
+    }
+
+    #[test]
+    fn a_huge_floor_is_as_exact_as_a_small_one() {
+        let turned = Quat::from_rotation_y(0.7);
+        for half in [1.0, 5000.0] {
+            let floor = Cuboid {
+                center: Vec3::NEG_Y * 0.5,
+                rotation: turned,
+                half: Vec3::new(half, 0.5, half),
+            };
+            let hit = down(Vec3::Y).cast_box(&floor, 2.0).unwrap();
+            assert!((hit.distance - 0.7).abs() < 1.0e-6, "{half}: {hit:?}");
+        }
     }
 }
