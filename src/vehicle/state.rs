@@ -98,8 +98,9 @@ pub struct WheelDynamics {
     pub expected: Vec2,
     /// Force of the last tick on the ground, world axes, newtons.
     pub ground_force: Vec3,
-    /// Velocity of the dynamic body under it at the start of the last tick, world axes, metres per
-    /// second: how it changed tells whether anything else holds that body.
+    /// Velocity of the ground in the last tick, world axes, metres per second. Of a dynamic body that at
+    /// the start, at its centre of mass: how it changed tells whether anything else holds the body. Of
+    /// other ground that under the wheel: how it changes tells how far the tick leaves the wheel behind.
     pub ground_speed: Vec3,
     /// The entity of the collider that the wheel stands on.
     #[entities]

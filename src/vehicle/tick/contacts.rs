@@ -90,14 +90,19 @@ pub(super) fn build<'a>(
             }
             _ => None,
         };
-        report.ground_bodies[i] = match motion {
-            GroundMotion::Free { body, .. } => Some(body),
-            _ => None,
+        // What moves as it wills changes its velocity between two ticks. The vehicle keeps that of its
+        // last tick for a part of this one, and stays behind by so much.
+        let (body, jump) = match motion {
+            GroundMotion::Free { body, rigid } => {
+                report.ground_speeds[i] = rigid.velocity;
+                (Some(body), Vec3::ZERO)
+            }
+            _ => {
+                report.ground_speeds[i] = ground_end;
+                (None, ground_start - last.ground_speed)
+            }
         };
-        report.ground_speeds[i] = match motion {
-            GroundMotion::Free { rigid, .. } => rigid.velocity,
-            _ => Vec3::ZERO,
-        };
+        report.ground_bodies[i] = body;
         report.ground_velocities[i] = ground_start;
         let Some(along) = touch.normal.cross(f.axle).try_normalize() else {
             continue;
@@ -105,6 +110,7 @@ pub(super) fn build<'a>(
         let across = along.cross(touch.normal);
         let velocity = own_velocity - ground_start;
         let flat = Vec2::new(velocity.dot(along), velocity.dot(across));
+        let jump = Vec2::new(jump.dot(along), jump.dot(across)) * s.view.end_share();
         // Forces act as the wheel points in the middle of the tick; the velocities that they lead to
         // are those of its end, so slip is measured as the wheel points then.
         let half = (0.5 * s.dt * rigid.spin.dot(touch.normal)).clamp(-0.5, 0.5);
@@ -123,7 +129,7 @@ pub(super) fn build<'a>(
             Vec2::ZERO
         };
         if same_ground && speed < SLOW {
-            bristle -= (flat - last.expected) * s.dt;
+            bristle -= (flat + jump - last.expected) * s.dt;
         }
         // The last tick's impulse is where the solve begins.
         let before = if same_ground {

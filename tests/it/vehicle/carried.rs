@@ -105,6 +105,48 @@ fn helpers_and_gearbox_take_the_deck_of_a_ferry_for_the_ground() {
 }
 
 #[test]
+fn a_braked_car_keeps_its_place_on_a_ferry_that_gathers_way() {
+    // It stays behind by what its tyres and springs give: m a / 4 k of the carcass, and the height of the
+    // centre of mass times the lean m a h / (4 k b² - m g h) on springs b beside the middle. Half of what the
+    // deck's speed changes by in a tick, times the tick, is the deck's own.
+    let mut found = Findings::new();
+    let (a, spring) = (2.0, 33_310.0);
+    for hz in RATES {
+        for (name, axis, carcass, b) in [
+            ("ahead", Vec3::NEG_Z, 100.0e3 / 0.2, HALF_BASE),
+            ("aside", Vec3::X, 80.0e3 / 0.4, HALF_TRACK),
+        ] {
+            let mut sim = Sim::new(hz);
+            let deck = sim.spawn((
+                RigidBody::KinematicVelocityBased,
+                Collider::cuboid(50.0, 0.5, 50.0),
+                Velocity::default(),
+                Transform::from_xyz(0.0, -0.5, 0.0),
+            ));
+            let car = Plan::reference().park(&mut sim, Quat::IDENTITY);
+            car.ask(&mut sim, |i| i.brake = 1.0);
+            sim.seconds(2.0);
+            let tolerance = 4.0e-4 + 0.5 * a * sim.dt() * sim.dt();
+            let place = |sim: &Sim| (sim.position(car.body) - sim.position(deck)).dot(axis);
+            let start = place(&sim);
+            for tick in 1..=(2.5 * hz) as usize {
+                let speed = a * tick as f32 / hz as f32;
+                edit::<Velocity>(&mut sim, deck, |v| v.linear = axis * speed);
+                sim.ticks(1);
+            }
+            let lag = start - place(&sim);
+            let stiffness = 4.0 * spring * b * b - MASS * G * HEIGHT;
+            let lean = MASS * a * HEIGHT / stiffness;
+            let wanted = MASS * a / (4.0 * carcass) + HEIGHT * lean;
+            found.near(format!("{hz} Hz {name}: lags"), lag, wanted, tolerance);
+            sim.seconds(4.0);
+            let lag = start - place(&sim);
+            found.near(format!("{hz} Hz {name}: back"), lag, 0.0, tolerance);
+        }
+    }
+}
+
+#[test]
 fn a_belt_that_starts_takes_a_sleeping_car_along() {
     let mut found = Findings::new();
     for hz in RATES {
