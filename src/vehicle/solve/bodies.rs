@@ -35,6 +35,8 @@ pub(crate) struct GroundBody {
     pub spin: Vec3,
     /// Kilograms.
     pub mass: f32,
+    /// Part of the speed with which a wheel is pushed out of the ground that it can stand, `0..=1`.
+    pub withstands: f32,
     /// As far as it gives way: world axes, 1/kg and 1/(kg·m²).
     pub inverse_mass: Mat3,
     pub inverse_inertia: Mat3,

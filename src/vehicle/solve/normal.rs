@@ -15,7 +15,9 @@ use super::{Contact, MOST_WHEELS, Problem, dense::Ldlt};
 use crate::vehicle::suspension::{Piece, Scheme};
 
 /// Speed with which a wheel beyond the end of its travel is pushed out of the ground, metres per second:
-/// enough to be out soon, too little to throw the vehicle where a step appears under a wheel.
+/// enough to be out soon, too little to throw the vehicle where a step appears under a wheel. Out of a
+/// loose body that is lighter than the vehicle it is the less, the lighter that is: else the opposite push
+/// would shoot the body away. There the spring lifts the wheel out.
 const RECOVERY: f32 = 3.0;
 
 pub(super) struct Normals {
@@ -179,9 +181,11 @@ impl Normals {
             let expected = self.expected(i, c, now[i], problem);
             // As stiff as brings the wheel to rest within the tick.
             let block = 2.0 / (dt * dt * self.total[i]);
+            let ground = c.ground.map(|(index, _)| &problem.grounds[index]);
+            let recovery = RECOVERY * dt * ground.map_or(1.0, |body| body.withstands);
             let piece = c
                 .law
-                .piece(c.compression, expected, now[i] < 0.0, block, RECOVERY * dt);
+                .piece(c.compression, expected, now[i] < 0.0, block, recovery);
             // Above the ground a wheel pushes only if it gets there within the tick.
             let pushing = c.compression > 0.0 || expected > 0.0;
             if piece != self.piece[i] || pushing != self.pushing[i] || !self.factored {

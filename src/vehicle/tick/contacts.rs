@@ -196,6 +196,11 @@ fn ground_body(entity: Entity, rigid: &Rigid, hold: Hold, own_mass: f32) -> Grou
         velocity: Vec3::ZERO,
         spin: Vec3::ZERO,
         mass: rigid.mass,
+        // A loose one that is lighter than the vehicle would be shot away.
+        withstands: match hold {
+            Hold::Joints => 1.0,
+            Hold::Free | Hold::Floor(_) => (rigid.mass / own_mass).min(1.0),
+        },
         inverse_mass,
         inverse_inertia,
         pushed: Vec3::ZERO,

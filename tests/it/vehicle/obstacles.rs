@@ -12,24 +12,16 @@ use super::support::*;
 const THROWN: f32 = 9.0 / (2.0 * G);
 
 #[test]
-fn a_car_breaks_through_a_wall_of_three_rows() {
-    through_a_wall(&RATES, 15.0, false);
-    through_a_wall(&RATES[..2], 15.0, true);
-}
-
-#[test]
-#[ignore = "open defect: a brick that is caught under the car is shot away at up to 90 m/s at 120 and 240 Hz, \
-            and may turn the car over"]
-fn a_brick_caught_under_a_car_gains_no_energy() {
+fn a_car_breaks_through_a_wall_of_three_rows_and_no_brick_under_it_gains_energy() {
+    // A little faster or slower, and other bricks end up under other wheels.
     for speed in [14.0, 14.5, 15.0, 15.5, 16.0] {
-        through_a_wall(&RATES, speed, true);
+        through_a_wall(speed);
     }
 }
 
-/// Drives through a wall at this speed; `calm` asks for what holds where no brick is caught, too.
-fn through_a_wall(rates: &[f64], speed: f32, calm: bool) {
+fn through_a_wall(speed: f32) {
     let mut found = Findings::new();
-    for &hz in rates {
+    for hz in RATES {
         let mut sim = Sim::new(hz);
         plane(&mut sim, Quat::IDENTITY);
         let mut bricks = Vec::new();
@@ -73,11 +65,9 @@ fn through_a_wall(rates: &[f64], speed: f32, calm: bool) {
         found.at_most(format!("{case}: highest"), highest, HEIGHT + 1.2 + THROWN);
         found.at_most(format!("{case}: not sped up"), fastest, speed + 0.2);
         found.holds(format!("{case}: finite"), finite);
-        if calm {
-            found.at_most(format!("{case}: energy"), most, start * 1.005);
-            let upright = (pose.rotation * Vec3::Y).y;
-            found.at_least(format!("{case}: upright"), upright, 0.99);
-        }
+        found.at_most(format!("{case}: energy"), most, start * 1.005);
+        let upright = (pose.rotation * Vec3::Y).y;
+        found.at_least(format!("{case}: upright"), upright, 0.99);
     }
 }
 
