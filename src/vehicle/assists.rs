@@ -24,7 +24,8 @@ impl Default for AntiLockBrakes {
     }
 }
 
-/// Traction control: takes throttle away when driven wheels spin.
+/// Traction control: takes throttle away when driven wheels spin, but leaves as much as holds them at
+/// their slip, so that they go on pushing.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -145,11 +146,27 @@ impl TractionControl {
         self.slip > 0.0 && self.slip.is_finite()
     }
 
-    /// The part of the throttle to leave, from the last one, after a tick of `dt` at the greatest slip
-    /// of a driven wheel.
-    pub(crate) fn part(&self, last: f32, slip: f32, dt: f32) -> f32 {
-        let excess = (slip - self.slip) / self.slip;
+    /// The part of the throttle to leave, from the last one, after a tick of `dt` at the greatest slip of a
+    /// driven wheel.
+    pub(crate) fn part(&self, last: f32, slip: f32, load: Load, dt: f32) -> f32 {
+        let excess = ((slip - self.slip) / self.slip).max(-1.0);
         let rate = if excess > 0.0 { 15.0 } else { 4.0 };
-        (last - (excess.clamp(-1.0, 2.0) * rate * dt).clamp(-0.5, 0.5)).clamp(0.02, 1.0)
+        let slowed = load.held - load.slowing * self.slip * excess.max(0.0);
+        let least = slowed.max(load.needed).clamp(0.02, 1.0);
+        (last - (excess.min(2.0) * rate * dt).clamp(-0.5, 0.5)).clamp(least, 1.0)
     }
+
+    /// In which wheels that spin are slowed down, seconds: some ticks of the slowest game.
+    pub(crate) const TIME: f32 = 0.15;
+}
+
+/// What driven wheels have to do, in parts of the throttle that gives them the torque for it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Load {
+    /// Of what their tyres take up: with it their slip stays as it is.
+    pub held: f32,
+    /// Of what a slip of 1 is taken off them with within [`TractionControl::TIME`].
+    pub slowing: f32,
+    /// Of what keeps the vehicle from rolling down the hill.
+    pub needed: f32,
 }

@@ -1,7 +1,12 @@
 //! Engine, clutch, gears, differentials and brakes as shafts and friction rows.
 
-use super::{Found, Surroundings, brakes::BrakeTorques};
+use super::{
+    Found, Surroundings,
+    brakes::BrakeTorques,
+    traction::{driven_slip, load},
+};
 use crate::vehicle::{
+    assists::Load,
     config::Vehicle,
     drivetrain::{
         Differential, Drivetrain, GearboxState, Power, PowerSource, from_rpm, motor_power, power,
@@ -25,6 +30,7 @@ pub(super) struct Driveline {
     pub direct: [f32; MOST_WHEELS],
 }
 
+/// `weight` is the part of the vehicle's weight along itself, newtons, positive forward.
 pub(super) fn build(
     s: &Surroundings,
     config: &Vehicle,
@@ -35,6 +41,7 @@ pub(super) fn build(
     found: &[Found],
     brakes: &BrakeTorques,
     speed: f32,
+    weight: f32,
     spin: &mut Spin,
 ) -> Driveline {
     let dt = s.dt;
@@ -63,7 +70,7 @@ pub(super) fn build(
     }
     if let Some(drivetrain) = &config.drivetrain {
         drive(
-            s, drivetrain, state, report, telemetry, asked, speed, spin, &mut line,
+            s, drivetrain, state, report, telemetry, asked, found, speed, weight, spin, &mut line,
         );
         let skid = config.steering.skid_torque * asked.steer;
         for (i, wheel) in s.wheels.iter().enumerate() {
@@ -85,7 +92,9 @@ fn drive(
     report: &mut VehicleReport,
     telemetry: &mut VehicleTelemetry,
     asked: &VehicleIntent,
+    found: &[Found],
     speed: f32,
+    weight: f32,
     spin: &mut Spin,
     line: &mut Driveline,
 ) {
@@ -94,7 +103,7 @@ fn drive(
     let mean: f32 = (0..s.wheels.len())
         .map(|i| shares[i] * state.wheels[i].spin)
         .sum();
-    let slipping = driven_slip(s, state, speed);
+    let (slipping, reference) = driven_slip(s, state, speed);
 
     let mut gearbox = GearboxState {
         gear: state.gear,
@@ -120,9 +129,16 @@ fn drive(
     report.shift = shift;
 
     let mut throttle = asked.throttle;
+    let mut ratio = gearbox.ratio(&drivetrain.gearbox) * drivetrain.final_drive;
     match s.assists.traction {
         Some(control) if throttle > 0.0 => {
-            state.traction_cut = control.part(state.traction_cut, slipping, dt);
+            let load = load(s, drivetrain, state, found, ratio, reference, weight);
+            let load = Load {
+                held: load.held / throttle,
+                slowing: load.slowing / throttle,
+                needed: load.needed / throttle,
+            };
+            state.traction_cut = control.part(state.traction_cut, slipping, load, dt);
             throttle *= state.traction_cut;
             telemetry.traction_control = state.traction_cut < 0.98;
         }
@@ -131,7 +147,6 @@ fn drive(
             telemetry.traction_control = false;
         }
     }
-    let mut ratio = gearbox.ratio(&drivetrain.gearbox) * drivetrain.final_drive;
     let engine_inertia;
     let closed;
     match &drivetrain.source {
@@ -252,19 +267,6 @@ fn wheel_shares(s: &Surroundings, drivetrain: &Drivetrain) -> [f32; MOST_WHEELS]
 fn axle_share(drivetrain: &Drivetrain, axle: u8) -> f32 {
     let listed = drivetrain.axles.iter().find(|a| a.axle == axle);
     listed.map_or(1.0, |a| a.share)
-}
-
-/// Greatest slip ratio of a driven wheel on the ground, positive driving.
-fn driven_slip(s: &Surroundings, state: &VehicleState, speed: f32) -> f32 {
-    let mut most = 0.0f32;
-    for (wheel, last) in s.wheels.iter().zip(&state.wheels) {
-        if wheel.driven && last.ground.is_some() {
-            let rim = last.spin * wheel.radius;
-            let slip = (rim - speed) * rim.signum() / speed.abs().max(rim.abs()).max(1.0);
-            most = most.max(slip);
-        }
-    }
-    most
 }
 
 /// Rows between the outputs of all differentials.

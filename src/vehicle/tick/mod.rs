@@ -8,6 +8,7 @@ mod outside;
 mod sense;
 mod shares;
 mod steer;
+mod traction;
 
 use arrayvec::ArrayVec;
 use bevy::prelude::*;
@@ -224,6 +225,7 @@ pub(super) fn run(
         &found,
         &brakes,
         speed,
+        rigid.mass * gravity.dot(axes.forward),
         &mut scratch.spin,
     );
     let mut problem = Problem {

@@ -1,6 +1,6 @@
 //! Help for the driver, each beside a car without it.
 
-use bevy::prelude::*;
+use bevy::{ecs::world::CommandQueue, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::Sleeping;
 use embody_scenes::Sim;
@@ -51,6 +51,53 @@ fn held_then_rolls(found: &mut Findings, hz: f64, time: f32, with: impl Bundle) 
     sim.seconds(1.1);
     let rolled = (car.pose(&sim).translation - start).length();
     found.at_least(format!("{hz} Hz: rolls"), rolled, 0.5);
+}
+
+#[test]
+fn traction_control_starts_on_every_hill_that_the_car_climbs_without_it() {
+    let mut found = Findings::new();
+    let mut climbed = 0.0;
+    for (name, preset) in [
+        ("hatchback", VehiclePreset::hatchback()),
+        ("sports car", VehiclePreset::sports_car()),
+        ("suv", VehiclePreset::suv()),
+        ("electric car", VehiclePreset::electric_car()),
+    ] {
+        for (hz, angle) in RATES
+            .iter()
+            .flat_map(|hz| [10.0, 20.0, 30.0].map(|a| (*hz, a)))
+        {
+            let run = |control: bool| {
+                let rotation = uphill(angle);
+                let mut sim = Sim::new(hz);
+                plane(&mut sim, rotation);
+                let mut queue = CommandQueue::default();
+                let mut commands = Commands::new(&mut queue, sim.app.world());
+                let car = preset.spawn(&mut commands, Transform::from_rotation(rotation));
+                queue.apply(sim.app.world_mut());
+                if control {
+                    insert(&mut sim, car, TractionControl::default());
+                }
+                edit::<VehicleIntent>(&mut sim, car, |i| i.brake = 1.0);
+                sim.seconds(1.5);
+                let start = sim.position(car).y;
+                edit::<VehicleIntent>(&mut sim, car, |i| {
+                    i.brake = 0.0;
+                    i.throttle = 1.0;
+                });
+                sim.seconds(3.0);
+                sim.position(car).y - start
+            };
+            let (free, controlled) = (run(false), run(true));
+            let case = format!("{hz} Hz {name} on {angle}°, {free} m without");
+            if free > 0.3 {
+                climbed += 1.0;
+                found.at_least(case, controlled, 0.3);
+            }
+        }
+    }
+    // Not the front-wheel drive on the steeper ones.
+    found.at_least("hills that were climbed", climbed, 24.0);
 }
 
 #[test]
