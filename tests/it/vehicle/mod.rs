@@ -27,3 +27,4 @@ mod springs;
 mod statics;
 mod traction;
 mod transfer;
+mod washboard;
