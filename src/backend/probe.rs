@@ -22,7 +22,7 @@ use bevy_rapier3d::{
 };
 
 use super::{
-    neighbourhood::{Area, Geometry, break_down},
+    neighbourhood::{Area, Geometry, MeshMemory, break_down},
     world::PhysicsView,
 };
 use crate::math::wheel::WheelCast;
@@ -114,11 +114,14 @@ impl Default for Ground {
 
 impl Ground {
     /// Collects every solid piece in these boxes, relative to `origin`, that is not of the body `own`.
+    /// `memory` keeps what is near for some ticks, in which the boxes move by about `way`, metres.
     pub fn gather(
         &mut self,
+        memory: &mut MeshMemory,
         view: &PhysicsView,
         origin: Vec3,
         boxes: &[(Vec3, Vec3)],
+        way: Vec3,
         own: &RapierRigidBodyHandle,
         groups: Option<CollisionGroups>,
     ) {
@@ -133,15 +136,16 @@ impl Ground {
             boxes,
             grow: 0.0,
         };
-        let nodes = area.in_world();
+        let around = area.in_world();
+        memory.begin();
         let pieces = &mut self.pieces;
-        for (collider, own_body) in view.colliders_in(|node| nodes.meet(node), own) {
+        for (collider, own_body) in view.colliders_in(|node| around.meets_node(node), own) {
             if own_body || collider.is_sensor() || !collider.collision_groups().test(groups) {
                 continue;
             }
             let entity = RapierContextColliders::entity_from_collider(collider);
             let (shape, position) = (collider.shared_shape(), collider.position());
-            break_down(&area, shape, position, &mut |geometry, _| {
+            let mut take = |geometry: Geometry| {
                 let (low, high) = geometry.bounds();
                 if area.meets(low, high) {
                     pieces.push(GroundPiece {
@@ -151,7 +155,13 @@ impl Ground {
                         high,
                     });
                 }
-            });
+            };
+            match shape.as_trimesh() {
+                Some(mesh) => area.recall(memory, way, shape, mesh, position, &mut |t| {
+                    take(Geometry::Triangle(t));
+                }),
+                None => break_down(&area, shape, position, &mut |geometry, _| take(geometry)),
+            }
         }
     }
 

@@ -4,6 +4,8 @@
 use arrayvec::ArrayVec;
 use bevy::prelude::*;
 
+use crate::backend::neighbourhood::MeshMemory;
+
 use super::{drivetrain::Shift, output::WheelState, solve::MOST_WHEELS};
 
 /// After this many ticks a vehicle whose body wheels cannot carry is named in a warning: what is
@@ -45,6 +47,8 @@ pub(crate) struct VehicleReport {
     pub shares: ArrayVec<f32, MOST_WHEELS>,
     pub shares_key: Option<(f32, Vec3, usize)>,
     pub reshare: bool,
+    /// The ground near its wheels.
+    pub meshes: MeshMemory,
 }
 
 impl Default for VehicleReport {
@@ -71,6 +75,7 @@ impl Default for VehicleReport {
             shares: ArrayVec::new(),
             shares_key: None,
             reshare: true,
+            meshes: MeshMemory::default(),
         }
     }
 }

@@ -1,15 +1,19 @@
 //! A collider's shape as convex pieces.
 
 use arrayvec::ArrayVec;
-use bevy::prelude::*;
+use bevy::{math::Vec3A, prelude::*};
 use bevy_rapier3d::rapier::{
     geometry::{Aabb, SharedShape, TypedShape},
     math::Pose,
-    parry::{bounding_volume::BoundingVolume, partitioning::BvhNode},
+    parry::partitioning::BvhNode,
 };
 
 use super::Geometry;
+#[cfg(feature = "vehicle")]
+use super::MeshMemory;
 use crate::math::{cuboid::Cuboid, triangle::Triangle};
+#[cfg(feature = "vehicle")]
+use bevy_rapier3d::rapier::geometry::TriMesh;
 
 /// The most boxes of an area.
 pub(crate) const MOST_BOXES: usize = 16;
@@ -34,14 +38,49 @@ impl Area<'_> {
             .any(|(a, b)| low.cmple(*b + grow).all() && high.cmpge(*a - grow).all())
     }
 
-    /// The area in the world.
+    /// The triangle if it may be in the area. Boxes first: most triangles of a mesh leaf are out of reach.
+    #[inline]
+    fn triangle(&self, a: Vec3, b: Vec3, c: Vec3) -> Option<Triangle> {
+        let near = self.meets(a.min(b).min(c), a.max(b).max(c));
+        near.then(|| Triangle::new(a, b, c)).flatten()
+    }
+
+    /// The triangles of a mesh, as [`break_down`] hands them out, but from memory where they are in it.
     #[cfg(feature = "vehicle")]
-    pub fn in_world(&self) -> Nodes {
-        self.nodes(&Pose::IDENTITY)
+    pub fn recall(
+        &self,
+        memory: &mut MeshMemory,
+        way: Vec3,
+        shape: &SharedShape,
+        mesh: &TriMesh,
+        position: &Pose,
+        take: &mut impl FnMut(Triangle),
+    ) {
+        let at = position.translation - self.origin;
+        let turn = position.rotation;
+        let origin = turn.inverse() * -at;
+        memory.triangles(self, way, shape, mesh, position, &mut |corners| {
+            let [a, b, c] = corners.map(|p| turn * (p - origin));
+            if let Some(triangle) = self.triangle(a, b, c) {
+                take(triangle);
+            }
+        });
+    }
+
+    /// The box around the whole area, in the world.
+    #[cfg(feature = "vehicle")]
+    pub fn in_world(&self) -> Block {
+        let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
+        for (a, b) in self.boxes {
+            low = low.min(*a);
+            high = high.max(*b);
+        }
+        let grow = Vec3::splat(self.grow);
+        Block::new(self.origin + (low - grow), self.origin + (high + grow))
     }
 
     /// The area in a shape's own axes.
-    fn nodes(&self, position: &Pose) -> Nodes {
+    pub(super) fn nodes(&self, position: &Pose) -> Nodes {
         let mut nodes = Nodes::default();
         let back = Mat3::from_quat(position.rotation.inverse());
         let offset = self.origin - position.translation;
@@ -51,9 +90,43 @@ impl Area<'_> {
             let extent = back.x_axis.abs() * half.x
                 + back.y_axis.abs() * half.y
                 + back.z_axis.abs() * half.z;
-            nodes.add(Aabb::new(center - extent, center + extent));
+            nodes.add(Block::new(center - extent, center + extent));
         }
         nodes
+    }
+}
+
+/// A box that is compared four numbers at a time.
+#[derive(Clone, Copy)]
+pub(crate) struct Block {
+    low: Vec3A,
+    high: Vec3A,
+}
+
+impl Block {
+    #[inline]
+    pub fn new(low: Vec3, high: Vec3) -> Self {
+        Self {
+            low: low.into(),
+            high: high.into(),
+        }
+    }
+
+    #[inline]
+    fn meets(&self, other: &Self) -> bool {
+        (self.low.cmple(other.high) & self.high.cmpge(other.low)).all()
+    }
+
+    /// Whether a node of a tree reaches into it.
+    #[cfg(feature = "vehicle")]
+    #[inline]
+    pub fn meets_node(&self, node: &BvhNode) -> bool {
+        self.meets(&Self::new(node.mins(), node.maxs()))
+    }
+
+    #[cfg(feature = "vehicle")]
+    fn holds(&self, other: &Self) -> bool {
+        (self.low.cmple(other.low) & self.high.cmpge(other.high)).all()
     }
 }
 
@@ -61,13 +134,16 @@ impl Area<'_> {
 #[derive(Default)]
 pub(crate) struct Nodes {
     /// All boxes together.
-    whole: Option<Aabb>,
-    parts: ArrayVec<Aabb, MOST_BOXES>,
+    whole: Option<Block>,
+    parts: ArrayVec<Block, MOST_BOXES>,
 }
 
 impl Nodes {
-    fn add(&mut self, part: Aabb) {
-        let whole = self.whole.map_or(part, |whole| whole.merged(&part));
+    fn add(&mut self, part: Block) {
+        let whole = self.whole.map_or(part, |whole| Block {
+            low: whole.low.min(part.low),
+            high: whole.high.max(part.high),
+        });
         self.whole = Some(whole);
         self.parts.push(part);
     }
@@ -75,14 +151,40 @@ impl Nodes {
     /// Whether a node of the tree reaches into the area.
     #[inline]
     pub fn meet(&self, node: &BvhNode) -> bool {
-        let (low, high) = (node.mins(), node.maxs());
-        let meets = |b: &Aabb| low.cmple(b.maxs).all() && high.cmpge(b.mins).all();
-        self.whole.as_ref().is_some_and(meets)
-            && (self.parts.len() == 1 || self.parts.iter().any(meets))
+        self.meet_block(&Block::new(node.mins(), node.maxs()))
+    }
+
+    /// Whether a box in the same axes reaches into the area.
+    #[inline]
+    pub fn meet_block(&self, block: &Block) -> bool {
+        self.whole.as_ref().is_some_and(|whole| whole.meets(block))
+            && (self.parts.len() == 1 || self.parts.iter().any(|part| part.meets(block)))
+    }
+
+    /// Whether each box of another area lies in the one of the same number here.
+    #[cfg(feature = "vehicle")]
+    pub fn hold(&self, other: &Self) -> bool {
+        self.parts.len() == other.parts.len()
+            && self.parts.iter().zip(&other.parts).all(|(a, b)| a.holds(b))
+    }
+
+    /// The area with all boxes larger by `around` on every side, and by a way.
+    #[cfg(feature = "vehicle")]
+    pub fn ahead(&self, way: Vec3, around: f32) -> Self {
+        let way = Vec3A::from(way);
+        let mut nodes = Self::default();
+        for part in &self.parts {
+            nodes.add(Block {
+                low: part.low + way.min(Vec3A::ZERO) - around,
+                high: part.high + way.max(Vec3A::ZERO) + around,
+            });
+        }
+        nodes
     }
 
     fn aabb(&self) -> Option<Aabb> {
         self.whole
+            .map(|whole| Aabb::new(whole.low.into(), whole.high.into()))
     }
 }
 
@@ -108,10 +210,7 @@ fn add(
     let at = position.translation - area.origin;
     let turn = position.rotation;
     let mut triangle = |a: Vec3, b: Vec3, c: Vec3, part: u32| {
-        // Boxes first: most triangles of a mesh leaf are out of reach.
-        if area.meets(a.min(b).min(c), a.max(b).max(c))
-            && let Some(triangle) = Triangle::new(a, b, c)
-        {
+        if let Some(triangle) = area.triangle(a, b, c) {
             take(Geometry::Triangle(triangle), part);
         }
     };

@@ -10,6 +10,8 @@
 
 mod break_down;
 mod gather;
+#[cfg(feature = "vehicle")]
+mod mesh_memory;
 mod mover;
 mod piece;
 
@@ -19,6 +21,8 @@ use bevy::{math::DQuat, prelude::*};
 pub(crate) use break_down::MOST_BOXES;
 pub(crate) use break_down::{Area, break_down};
 pub(crate) use gather::Request;
+#[cfg(feature = "vehicle")]
+pub(crate) use mesh_memory::MeshMemory;
 pub(crate) use mover::{Mover, MoverPose};
 pub(crate) use piece::{Geometry, Piece};
 

@@ -20,6 +20,7 @@ pub(crate) struct Chassis {
 }
 
 impl Chassis {
+    #[inline(always)]
     pub fn push(&mut self, impulse: Vec3, arm: Vec3) {
         self.velocity += impulse * self.inverse_mass;
         self.spin += self.inverse_inertia * arm.cross(impulse);
@@ -46,6 +47,7 @@ pub(crate) struct GroundBody {
 }
 
 impl GroundBody {
+    #[inline(always)]
     pub fn push(&mut self, impulse: Vec3, arm: Vec3) {
         self.velocity += self.inverse_mass * impulse;
         self.spin += self.inverse_inertia * arm.cross(impulse);
@@ -73,6 +75,7 @@ impl GroundBody {
 
 impl Contact<'_> {
     /// Velocity of the chassis against the ground at the contact, with all impulses so far.
+    #[inline(always)]
     pub fn velocity(&self, chassis: &Chassis, grounds: &[GroundBody]) -> Vec3 {
         let own = chassis.velocity + chassis.spin.cross(self.arm) - self.ground_end;
         match self.ground {
@@ -90,6 +93,7 @@ impl Contact<'_> {
     }
 
     /// Applies an impulse to the chassis and its opposite to the ground.
+    #[inline(always)]
     pub fn push_both(&self, impulse: Vec3, chassis: &mut Chassis, grounds: &mut [GroundBody]) {
         chassis.push(impulse, self.arm);
         if let Some((index, arm)) = self.ground {

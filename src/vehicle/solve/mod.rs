@@ -29,7 +29,10 @@ use bevy::prelude::*;
 pub(crate) use bodies::{Chassis, GroundBody};
 pub(crate) use spin::{Row, Spin};
 
-use super::{suspension::Law, tire::Patch};
+use super::{
+    suspension::Law,
+    tire::{Patch, Secant},
+};
 
 /// The most wheels of a vehicle.
 pub(crate) const MOST_WHEELS: usize = 16;
@@ -87,6 +90,8 @@ pub(crate) struct Contact<'a> {
     /// Speed that the slip is measured against, metres per second.
     pub speed: f32,
     pub patch: Option<Patch<'a>>,
+    /// The patch's line at this combined slip velocity.
+    pub secant: Option<(f32, Secant)>,
 }
 
 /// A vehicle in one tick.

@@ -20,6 +20,10 @@ use crate::{
     },
 };
 
+/// For how many ticks ahead triangles of meshes are searched, and how far at most, metres.
+const TICKS_AHEAD: f32 = 8.0;
+const FARTHEST_AHEAD: f32 = 3.0;
+
 const _: () = assert!(MOST_WHEELS <= MOST_BOXES, "a box for each wheel");
 
 /// A wheel at the start of the tick.
@@ -47,7 +51,7 @@ pub(super) fn sense(
     s: &Surroundings,
     config: &Vehicle,
     state: &VehicleState,
-    report: &VehicleReport,
+    report: &mut VehicleReport,
     rigid: &Rigid,
     angles: &[f32],
     gravity: Vec3,
@@ -67,7 +71,10 @@ pub(super) fn sense(
         .map(|(place, wheel)| place.area(wheel, rigid.center))
         .collect();
     if !boxes.is_empty() {
-        ground.gather(&s.view, rigid.center, &boxes, s.handle, s.groups);
+        let way = rigid.velocity * (s.dt * TICKS_AHEAD);
+        let (memory, origin) = (&mut report.meshes, rigid.center);
+        let way = way.clamp_length_max(FARTHEST_AHEAD);
+        ground.gather(memory, &s.view, origin, &boxes, way, s.handle, s.groups);
     }
     s.wheels
         .iter()
