@@ -110,7 +110,8 @@ impl WheelCast {
         let mut first: Option<WheelTouch> = None;
         for axis in 0..3 {
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-            if !(way[axis].abs() > 1.0e-6) || !(low[u] < high[u] && low[v] < high[v]) {
+            let near = low[u] < high[u] && low[v] < high[v];
+            if !(near && way[axis].abs() > 1.0e-6) {
                 continue;
             }
             let side = -way[axis].signum();
