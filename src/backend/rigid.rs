@@ -16,8 +16,6 @@ pub(crate) struct Rigid {
     pub rotation: Quat,
     /// Centre of mass, world, metres.
     pub center: Vec3,
-    /// Centre of mass in the body's own axes, metres.
-    pub local_center: Vec3,
     /// Velocity of the centre of mass, metres per second.
     pub velocity: Vec3,
     /// Radians per second.
@@ -83,7 +81,6 @@ fn rigid(body: &RigidBody) -> Option<Rigid> {
         position: pose.translation,
         rotation: pose.rotation,
         center: body.center_of_mass(),
-        local_center: properties.local_mprops.local_com,
         velocity: body.linvel(),
         spin: body.angvel(),
         mass,

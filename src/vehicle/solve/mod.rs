@@ -29,10 +29,7 @@ use bevy::prelude::*;
 pub(crate) use bodies::{Chassis, GroundBody};
 pub(crate) use spin::{Row, Spin};
 
-use super::{
-    suspension::Law,
-    tire::{Patch, Secant},
-};
+use super::{suspension::Law, tire::Patch};
 
 /// The most wheels of a vehicle.
 pub(crate) const MOST_WHEELS: usize = 16;
@@ -90,8 +87,6 @@ pub(crate) struct Contact<'a> {
     /// Speed that the slip is measured against, metres per second.
     pub speed: f32,
     pub patch: Option<Patch<'a>>,
-    /// The patch's line at this combined slip velocity.
-    pub secant: Option<(f32, Secant)>,
 }
 
 /// A vehicle in one tick.

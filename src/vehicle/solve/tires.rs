@@ -13,7 +13,7 @@
 use bevy::math::Vec2;
 
 use super::{Contact, Problem};
-use crate::vehicle::tire::{Patch, Secant};
+use crate::vehicle::tire::Patch;
 
 /// Applies what the tyres begin with.
 pub(super) fn start(problem: &mut Problem) {
@@ -44,21 +44,15 @@ pub(super) fn sweep(problem: &mut Problem) -> f32 {
         let load = contact.push / dt;
         let mut grip = Vec2::ZERO;
         if load > 0.0 {
-            let same = |patch: &&Patch| (patch.load - load).abs() <= 1.0e-5 * load;
-            if contact.patch.as_ref().filter(same).is_none() {
-                let patch = Patch::new(contact.tire, load, contact.surface);
-                let contact = &mut problem.contacts[i];
-                contact.patch = Some(patch);
-                contact.secant = None;
-            }
-            let Some(patch) = &problem.contacts[i].patch else {
-                continue;
+            let patch = match contact.patch {
+                Some(patch) if (patch.load - load).abs() <= 1.0e-5 * load => patch,
+                _ => Patch::new(contact.tire, load, contact.surface),
             };
-            let step = step(problem, i, patch);
-            let scale = dt * patch.limit.max_element() + 1.0e-6;
+            let step = step(problem, i, &patch);
             let contact = &mut problem.contacts[i];
-            contact.secant = Some((step.combined, step.secant));
+            contact.patch = Some(patch);
             contact.combined = step.next;
+            let scale = dt * patch.limit.max_element() + 1.0e-6;
             let moved = (step.grip - before).abs().max_element();
             change = change.max(moved.max(step.open) / scale);
             grip = step.grip;
@@ -82,9 +76,6 @@ pub(super) fn sweep(problem: &mut Problem) -> f32 {
 struct Step {
     /// Newton-seconds.
     grip: Vec2,
-    /// The line that it used, and the combined slip velocity of that, metres per second.
-    secant: Secant,
-    combined: f32,
     /// Combined slip velocity to go on with, metres per second.
     next: f32,
     /// By how much that will still change the impulse, newton-seconds.
@@ -107,14 +98,7 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     let stiff = mobility + (patch.carcass * (dt * dt)).recip();
 
     let mut combined = contact.combined;
-    // Near the solution it is the last sweep's, to the digits that end the sweeps.
-    let mut secant = match contact.secant {
-        Some((at, secant)) if (at - combined).abs() <= 1.0e-5 * combined => {
-            combined = at;
-            secant
-        }
-        _ => patch.secant(combined, contact.speed),
-    };
+    let mut secant = patch.secant(combined, contact.speed);
     let mut grip = drive / (stiff + secant.compliance / dt);
     let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
     if (grip / limit).length() > 1.0 + 1.0e-4 {
@@ -149,11 +133,5 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     if excess > 1.0 {
         grip /= excess;
     }
-    Step {
-        grip,
-        secant,
-        combined,
-        next,
-        open,
-    }
+    Step { grip, next, open }
 }

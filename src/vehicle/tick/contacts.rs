@@ -166,7 +166,6 @@ pub(super) fn build<'a>(
             combined: if same_ground { last.slip } else { 0.0 },
             speed,
             patch: None,
-            secant: None,
         });
     }
     for (i, ground) in grounds.iter_mut().enumerate() {

@@ -262,8 +262,7 @@ pub(super) fn run(
 impl VehicleReport {
     /// Finds the mass that rests on each wheel, when masses or wheels changed.
     fn refresh_shares(&mut self, s: &Surroundings, rigid: &Rigid) {
-        // Not from its place in the world: that is rounded anew in each tick.
-        let center = rigid.local_center;
+        let center = rigid.rotation.inverse() * (rigid.center - rigid.position);
         let key = (rigid.mass, center, s.wheels.len());
         if self.shares_key == Some(key) && !self.reshare {
             return;

@@ -17,5 +17,5 @@ mod combined;
 mod config;
 mod curve;
 
-pub(crate) use combined::{Patch, Secant};
+pub(crate) use combined::Patch;
 pub use config::{SlipPoint, Tire, TireModel};
