@@ -1,8 +1,9 @@
 //! Cars on the ring roads of wavy ground: the scene in which the cost per vehicle is measured.
 //!
 //! Each tile of 100 m has eight rings, one car to 15 m of road, 100 cars in all. The cars of a ring
-//! go at one speed, which changes every two seconds, so they brake, change gear and never meet; rings
-//! beside each other turn in opposite ways. The driver steers for a point of the ring ahead.
+//! go at one speed, which changes every two seconds, so they brake and change gear, and one that a hill
+//! slows down is caught up; rings beside each other turn in opposite ways and do not meet. The driver
+//! steers for a point of the ring ahead.
 
 use bevy::{
     math::{UVec2, ops},
@@ -35,7 +36,7 @@ const RINGS: [(f32, u32); 8] = [
 ];
 /// Centripetal acceleration of the slowest and the fastest leg, metres per second squared.
 const SLOWEST: f32 = 1.0;
-const FASTEST: f32 = 4.0;
+const FASTEST: f32 = 3.0;
 /// Time between changes of speed, ticks of 1/60 s.
 const LEG: u32 = 120;
 
@@ -128,8 +129,9 @@ impl Driver {
         let centripetal = SLOWEST + (FASTEST - SLOWEST) * unit(self.ring, leg, 7);
         self.speed = (centripetal * self.radius).sqrt();
         let speed = velocity.dot(*at.forward());
-        self.throttle = (0.4 * (self.speed - speed)).clamp(0.0, 1.0);
-        self.brake = (0.15 * (speed - self.speed - 0.5)).clamp(0.0, 1.0);
+        // More would spin the wheels of a rear-driven car in a bend, and it would leave its ring.
+        self.throttle = (0.4 * (self.speed - speed)).clamp(0.0, 0.55);
+        self.brake = (0.15 * (speed - self.speed - 0.5)).clamp(0.0, 0.4);
         let place = Vec2::new(at.translation.x, at.translation.z) - self.center;
         let reach = 4.0 + 0.3 * speed.max(0.0);
         let ahead = ops::atan2(place.y, place.x) + self.turn * reach / self.radius;
