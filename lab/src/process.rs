@@ -6,15 +6,23 @@ use clap::ValueEnum;
 
 use crate::run::{Measured, Options};
 
-/// Runs a world on its own.
-pub fn measure(options: &Options) -> Result<Measured, String> {
+/// Runs a world on its own, by this command if there is one: `nice -n -5`, or a script that quiets the
+/// machine meanwhile.
+pub fn measure(options: &Options, under: &[String]) -> Result<Measured, String> {
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
     let side = options
         .only
         .to_possible_value()
         .map(|value| value.get_name().to_owned())
         .unwrap_or_default();
-    let mut command = Command::new(program);
+    let mut command = match under.split_first() {
+        Some((first, rest)) => {
+            let mut command = Command::new(first);
+            command.args(rest).arg(program);
+            command
+        }
+        None => Command::new(program),
+    };
     command
         .arg("profile")
         .arg("--json")

@@ -3,7 +3,7 @@
 mod output;
 mod world;
 
-use std::{collections::BTreeSet, path::PathBuf, process::ExitCode};
+use std::{collections::BTreeSet, path::PathBuf, process::ExitCode, time::Instant};
 
 use clap::Args;
 
@@ -14,12 +14,13 @@ use crate::{
     subject::{self, Subject},
 };
 use output::{ratio, short};
-use world::{World, measure_in_turns};
+use world::{Turns, World};
 
 /// Threads on which the sides are compared.
 const THREADS: [usize; 2] = [1, 2];
 /// Sizes of the crowd for the scaling.
-const SIZES: [u32; 3] = [100, 1000, 10_000];
+const SIZES: [u32; 3] = [100, 1000, LARGEST];
+const LARGEST: u32 = 10_000;
 
 /// What to measure.
 #[derive(Args, Clone, Debug)]
@@ -33,6 +34,9 @@ pub struct Options {
     /// Runs of every world, in turns; more make it less sensitive to what else the machine does.
     #[arg(long)]
     repeats: Option<usize>,
+    /// Runs every world by this command, such as `nice -n -5` or one that quiets the machine.
+    #[arg(long)]
+    under: Option<String>,
     /// Writes every tick as CSV and every result as lines of JSON into this folder.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -43,8 +47,8 @@ pub struct Options {
 
 /// Every world that was measured.
 pub struct Results {
-    /// Ours and the peer's, for each number of threads.
-    sides: Vec<World>,
+    /// For each number of threads all of ours that are compared, and the peer's.
+    sides: Vec<Vec<World>>,
     /// Ours in each size.
     crowds: Vec<World>,
     /// Ours in the subject's other scenes.
@@ -58,7 +62,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
         .repeats
         .unwrap_or(if options.quick { 1 } else { 5 })
         .max(1);
-    let results = measure(subject, options.quick, repeats)?;
+    let results = measure(subject, options, repeats)?;
     let mut checks = Vec::new();
     judge_sides(subject, &results.sides, &mut checks);
     judge_state(subject, &results.sides, &mut checks);
@@ -83,6 +87,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
         let worlds: Vec<&World> = results
             .sides
             .iter()
+            .flatten()
             .chain(&results.crowds)
             .chain(&results.variants)
             .collect();
@@ -103,27 +108,46 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     })
 }
 
-fn measure(subject: &Subject, quick: bool, repeats: usize) -> Result<Results, String> {
-    let scene = subject.name;
+fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Results, String> {
+    let quick = options.quick;
+    let under = options.under.as_deref().unwrap_or_default();
+    let under: Vec<String> = under.split_whitespace().map(str::to_owned).collect();
+    let turns = Turns {
+        under: &under,
+        started: Instant::now(),
+    };
     let steps = |full: usize| if quick { full / 20 } else { full };
     // What a quick run shows, a small crowd shows as well.
     let size = |full: u32| if quick { full.min(SIZES[0]) } else { full };
+    let world = |scene: &str, side, threads| {
+        let steps = steps(subject.steps);
+        World::new(scene, side, threads, size(subject.count), steps)
+    };
     let mut sides: Vec<World> = THREADS
         .into_iter()
-        .flat_map(|threads| [(Side::Ours, threads), (Side::Rapier, threads)])
-        .map(|(side, threads)| {
-            let steps = steps(subject.steps);
-            World::new(scene, side, threads, size(subject.count), steps)
+        .flat_map(|threads| {
+            let ours = subject.compared.iter().map(|c| (c.scene, Side::Ours));
+            ours.chain([(subject.name, Side::Rapier)])
+                .map(move |(scene, side)| (scene, side, threads))
         })
+        .map(|(scene, side, threads)| world(scene, side, threads))
         .collect();
-    measure_in_turns(&mut sides, repeats)?;
-    // Large crowds take long; the same short stretch of time is measured for every size.
+    turns.measure(&mut sides, |_| repeats)?;
+    let mut left = sides.into_iter();
+    let sides = THREADS
+        .iter()
+        .map(|_| left.by_ref().take(subject.compared.len() + 1).collect())
+        .collect();
+    // Large crowds take long: the same short stretch of time is measured for every size, and the
+    // largest, which is a mean over many already, once.
     let sizes = if quick { &SIZES[..2] } else { &SIZES[..] };
     let mut crowds: Vec<World> = sizes
         .iter()
-        .map(|size| World::new(scene, Side::Ours, 1, *size, steps(100)))
+        .map(|size| World::new(subject.name, Side::Ours, 1, *size, steps(100)))
         .collect();
-    measure_in_turns(&mut crowds, repeats.min(3))?;
+    turns.measure(&mut crowds, |world| {
+        repeats.min(3).min((LARGEST / world.options.count) as usize)
+    })?;
     let mut variants: Vec<World> = subject
         .variants
         .iter()
@@ -132,7 +156,7 @@ fn measure(subject: &Subject, quick: bool, repeats: usize) -> Result<Results, St
             World::new(variant.scene, Side::Ours, 1, size(variant.count), steps)
         })
         .collect();
-    measure_in_turns(&mut variants, repeats)?;
+    turns.measure(&mut variants, |_| repeats)?;
     Ok(Results {
         sides,
         crowds,
@@ -140,80 +164,106 @@ fn measure(subject: &Subject, quick: bool, repeats: usize) -> Result<Results, St
     })
 }
 
-fn judge_sides(subject: &Subject, sides: &[World], checks: &mut Vec<Check>) {
-    let scene = subject.name;
-    for pair in sides.chunks_exact(2) {
-        let threads = pair[0].options.threads;
-        let (ours, rapier) = (pair[0].work(), pair[1].work());
-        let factor = ours / rapier;
-        println!(
-            "peers {scene} threads={threads} ours={ours:.1}us rapier={rapier:.1}us ratio={}",
-            ratio(factor)
-        );
-        println!(
-            "whole update {scene} threads={threads} ours={:.0}us rapier={:.0}us",
-            pair[0].whole(),
-            pair[1].whole(),
-        );
-        if threads != 1 {
+fn judge_sides(subject: &Subject, sides: &[Vec<World>], checks: &mut Vec<Check>) {
+    for worlds in sides {
+        let Some((peer, all)) = worlds.split_last() else {
             continue;
-        }
-        let mut timing = |what: &str, value, bound: Option<f64>| {
-            if let Some(bound) = bound {
-                checks.push(Check::timing(what, value, Must::BeAtMost, bound));
-            }
         };
-        timing("ratio on one thread", factor, subject.bounds.ratio);
-        timing("microseconds on one thread", ours, subject.bounds.most);
+        for (compared, own) in subject.compared.iter().zip(all) {
+            let threads = own.options.threads;
+            let about = about(subject, threads, compared.tag);
+            let (ours, rapier) = (own.work(), peer.work());
+            let factor = ours / rapier;
+            println!(
+                "peers {about} ours={ours:.1}us rapier={rapier:.1}us ratio={}",
+                ratio(factor)
+            );
+            println!(
+                "whole update {about} ours={:.0}us rapier={:.0}us",
+                own.whole(),
+                peer.whole(),
+            );
+            if threads != 1 {
+                continue;
+            }
+            let mut timing = |what: &str, value, bound: Option<f64>| {
+                if let Some(bound) = bound {
+                    let what = format!("{what} on one thread {}", compared.tag);
+                    checks.push(Check::timing(what.trim(), value, Must::BeAtMost, bound));
+                }
+            };
+            timing("ratio", factor, compared.ratio);
+            timing("microseconds", ours, compared.most);
+        }
     }
-    let speed_up = sides[0].wall() / sides[2].wall();
-    println!("peers {scene} threads=2 speedup={speed_up:.2}x");
-    checks.push(Check::timing(
-        "speed-up by two threads",
-        speed_up,
-        Must::BeAtLeast,
-        subject.bounds.speed_up,
-    ));
+    let [one, two] = sides else { return };
+    for ((compared, one), two) in subject.compared.iter().zip(one).zip(two) {
+        let speed_up = one.wall() / two.wall();
+        let about = about(subject, two.options.threads, compared.tag);
+        println!("peers {about} speedup={speed_up:.2}x");
+        let what = format!("speed-up by two threads {}", compared.tag);
+        let least = subject.bounds.speed_up;
+        checks.push(Check::timing(what.trim(), speed_up, Must::BeAtLeast, least));
+    }
 }
 
-fn judge_state(subject: &Subject, sides: &[World], checks: &mut Vec<Check>) {
-    let scene = subject.name;
-    let ours = [&sides[0], &sides[2]];
-    let allocations = ours[0].allocations();
-    println!("allocations per tick={}", short(allocations));
-    // A quick run is over before every buffer has grown to its size.
-    checks.push(Check::timing(
-        "allocations per tick",
-        allocations,
-        Must::Equal,
-        0.0,
-    ));
-    for world in ours {
+/// What a line of results is about.
+fn about(subject: &Subject, threads: usize, tag: &str) -> String {
+    let line = format!("{} threads={threads} {tag}", subject.name);
+    line.trim_end().to_owned()
+}
+
+fn judge_state(subject: &Subject, sides: &[Vec<World>], checks: &mut Vec<Check>) {
+    let [one, two] = sides else { return };
+    for (compared, ours) in subject.compared.iter().zip(one.iter().zip(two)) {
+        let ours = [ours.0, ours.1];
+        let named = |what: &str| format!("{what} {}", compared.tag).trim_end().to_owned();
+        let allocations = ours[0].allocations();
         println!(
-            "state {scene} threads={} hash={:016x}",
-            world.options.threads,
-            world.hash()
+            "{}",
+            named(&format!("allocations per tick={}", short(allocations)))
         );
+        // A quick run is over before every buffer has grown to its size.
+        checks.push(Check::timing(
+            named("allocations per tick"),
+            allocations,
+            Must::Equal,
+            0.0,
+        ));
+        for world in ours {
+            println!(
+                "state {} hash={:016x}",
+                about(subject, world.options.threads, compared.tag),
+                world.hash()
+            );
+        }
+        let hashes: BTreeSet<u64> = ours
+            .iter()
+            .flat_map(|world| world.runs.iter().map(|run| run.hash))
+            .collect();
+        checks.push(Check::exact(
+            named("different states of one world"),
+            hashes.len() as f64,
+            Must::Equal,
+            1.0,
+        ));
+        let lost = ours[0].lost();
+        let of_peer = one.last().map_or(0, World::lost);
+        println!(
+            "{}",
+            named(&format!(
+                "left the level {} n={lost} rapier={of_peer}",
+                subject.name
+            ))
+        );
+        // Somebody far up in the air is cheap: figures with such are none.
+        checks.push(Check::timing(
+            named(&format!("{} that left the level", subject.name)),
+            lost as f64,
+            Must::Equal,
+            0.0,
+        ));
     }
-    let hashes: BTreeSet<u64> = ours
-        .iter()
-        .flat_map(|world| world.runs.iter().map(|run| run.hash))
-        .collect();
-    checks.push(Check::exact(
-        "different states of one world",
-        hashes.len() as f64,
-        Must::Equal,
-        1.0,
-    ));
-    let lost = ours[0].lost();
-    println!("left the level {scene} n={lost} rapier={}", sides[1].lost());
-    // Somebody far up in the air is cheap: figures with such are none.
-    checks.push(Check::timing(
-        format!("{scene} that left the level"),
-        lost as f64,
-        Must::Equal,
-        0.0,
-    ));
 }
 
 fn judge_crowds(subject: &Subject, crowds: &[World], checks: &mut Vec<Check>) {

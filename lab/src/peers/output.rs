@@ -69,16 +69,23 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
         "| per {} and tick | `bevy_embody` | Rapier's controller | ratio |\n|---|---|---|---|\n",
         subject.one
     );
-    for pair in results.sides.chunks_exact(2) {
-        let threads = match pair[0].options.threads {
-            1 => "one thread".to_owned(),
-            n => format!("{n} threads"),
+    for worlds in &results.sides {
+        let Some((peer, all)) = worlds.split_last() else {
+            continue;
         };
-        let (ours, rapier) = (pair[0].work(), pair[1].work());
-        table += &format!(
-            "| {threads} | {ours:.1} µs | {rapier:.1} µs | {} |\n",
-            ratio(ours / rapier)
-        );
+        for (compared, own) in subject.compared.iter().zip(all) {
+            let threads = match own.options.threads {
+                1 => "one thread".to_owned(),
+                n => format!("{n} threads"),
+            };
+            let comma = if compared.label.is_empty() { "" } else { ", " };
+            let (ours, rapier) = (own.work(), peer.work());
+            table += &format!(
+                "| {}{comma}{threads} | {ours:.1} µs | {rapier:.1} µs | {} |\n",
+                compared.label,
+                ratio(ours / rapier)
+            );
+        }
     }
     for crowd in &results.crowds {
         if crowd.options.count != subject.count {
@@ -94,7 +101,9 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
         let digits = if work < 1.0 { 2 } else { 1 };
         table += &format!("| {} | {work:.digits$} µs | | |\n", variant.label);
     }
-    let (ours, rapier) = (&results.sides[0], &results.sides[1]);
+    let Some((rapier, [ours, ..])) = results.sides.first().and_then(|w| w.split_last()) else {
+        return table;
+    };
     table += &format!(
         "\nThere are {} {}. Heap allocations per tick after warm-up: {}. The state after {} ticks is the same, bit for bit,\n\
          on one thread and two. {}\n\

@@ -1,5 +1,7 @@
 //! One kind of world and what all its runs measured.
 
+use std::time::Instant;
+
 use crate::{
     process,
     run::{self, Measured},
@@ -74,28 +76,47 @@ impl World {
     }
 }
 
-/// Runs every world as often as asked, in turns.
-pub fn measure_in_turns(worlds: &mut [World], repeats: usize) -> Result<(), String> {
-    for turn in 0..repeats {
-        for i in 0..worlds.len() {
-            // Every other turn backwards, so that none always comes first.
-            let i = if turn % 2 == 0 {
-                i
-            } else {
-                worlds.len() - 1 - i
-            };
-            let options = &worlds[i].options;
-            eprintln!(
-                "run {}/{repeats}: {} {} threads={} n={}",
-                turn + 1,
-                options.scene,
-                options.only.name(),
-                options.threads,
-                options.count,
-            );
-            let measured = process::measure(options)?;
-            worlds[i].runs.push(measured);
+/// Runs worlds in turns and tells how far it got.
+pub struct Turns<'a> {
+    /// Command that every world is run by.
+    pub under: &'a [String],
+    pub started: Instant,
+}
+
+impl Turns<'_> {
+    /// Runs every world as often as `repeats` says of it.
+    pub fn measure(
+        &self,
+        worlds: &mut [World],
+        repeats: impl Fn(&World) -> usize,
+    ) -> Result<(), String> {
+        let most = worlds.iter().map(&repeats).max().unwrap_or(0);
+        for turn in 0..most {
+            for i in 0..worlds.len() {
+                // Every other turn backwards, so that none always comes first.
+                let i = if turn % 2 == 0 {
+                    i
+                } else {
+                    worlds.len() - 1 - i
+                };
+                let times = repeats(&worlds[i]);
+                if turn >= times {
+                    continue;
+                }
+                let options = &worlds[i].options;
+                eprintln!(
+                    "{:4.0} s: run {}/{times}: {} {} threads={} n={}",
+                    self.started.elapsed().as_secs_f64(),
+                    turn + 1,
+                    options.scene,
+                    options.only.name(),
+                    options.threads,
+                    options.count,
+                );
+                let measured = process::measure(options, self.under)?;
+                worlds[i].runs.push(measured);
+            }
         }
+        Ok(())
     }
-    Ok(())
 }

@@ -12,7 +12,7 @@ use embody_scenes::{
     wavy::{FASTEST, LOWEST, Walker, Wavy},
 };
 
-use super::{Bounds, Seen, Subject, Variant};
+use super::{Bounds, Compared, Seen, Subject, Variant};
 use crate::{
     probe::{begin, end},
     scene::Scene,
@@ -36,6 +36,13 @@ pub const SUBJECT: Subject = Subject {
             build: idle,
         },
     ],
+    compared: &[Compared {
+        scene: "characters",
+        tag: "",
+        label: "",
+        ratio: Some(0.10),
+        most: None,
+    }],
     plugin: add_plugin,
     watch,
     // Nobody gets above this without being thrown.
@@ -50,8 +57,6 @@ pub const SUBJECT: Subject = Subject {
         most: 0.3,
     }],
     bounds: Bounds {
-        ratio: Some(0.10),
-        most: None,
         speed_up: 1.7,
         growth: 1.2,
     },

@@ -16,8 +16,10 @@ pub struct Subject {
     /// In the plural; also the name of the scene in which the sides are compared.
     pub name: &'static str,
     pub one: &'static str,
-    /// Its scenes; the first one is that of the comparison.
+    /// Its scenes; the first one is that of the peer.
     pub scenes: &'static [Scene],
+    /// Ours that are compared with the peer.
+    pub compared: &'static [Compared],
     /// Adds a side's controller and the probes around everything it does in a tick.
     pub plugin: fn(&mut App, Side),
     /// What becomes of everyone, seen from outside.
@@ -34,6 +36,19 @@ pub struct Subject {
     pub counted: &'static str,
 }
 
+/// One of ours that is compared with the peer.
+pub struct Compared {
+    pub scene: &'static str,
+    /// In lines of results, as `probe=ray`; empty where there is only one.
+    pub tag: &'static str,
+    /// In the table.
+    pub label: &'static str,
+    /// Most of the peer's time on one thread, as a factor.
+    pub ratio: Option<f64>,
+    /// Most on one thread, microseconds each.
+    pub most: Option<f64>,
+}
+
 /// One of ours in another scene, on one thread.
 pub struct Variant {
     pub scene: &'static str,
@@ -48,10 +63,6 @@ pub struct Variant {
 
 /// What is demanded.
 pub struct Bounds {
-    /// Most of the peer's time on one thread, as a factor.
-    pub ratio: Option<f64>,
-    /// Most on one thread, microseconds each.
-    pub most: Option<f64>,
     /// Least speed-up by a second thread.
     pub speed_up: f64,
     /// Most that one of many may cost, of one of few.
@@ -110,11 +121,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_variant_has_its_scene() {
+    fn every_measured_scene_is_there() {
         for subject in SUBJECTS {
             for variant in subject.variants {
                 let found = subject.scenes.iter().any(|s| s.name == variant.scene);
                 assert!(found, "{} of {}", variant.scene, subject.name);
+            }
+            for compared in subject.compared {
+                let found = subject.scenes.iter().any(|s| s.name == compared.scene);
+                assert!(found, "{} of {}", compared.scene, subject.name);
             }
             assert_eq!(subject.scenes[0].name, subject.name);
         }

@@ -9,7 +9,7 @@ use embody_scenes::{
     traffic::{Driver, LOWEST, Traffic},
 };
 
-use super::{Bounds, Seen, Subject, Variant};
+use super::{Bounds, Compared, Seen, Subject, Variant};
 use crate::{
     peer::{Peer, peer, update_controllers},
     probe::{begin, end},
@@ -24,20 +24,36 @@ pub const SUBJECT: Subject = Subject {
         Scene {
             name: "vehicles",
             about: "sports cars on ring roads over a wavy mesh, wheels by rays",
-            warm_up: 240,
+            warm_up: 120,
             build: |sim, side, count| traffic(sim, side, count, WheelProbe::Ray),
         },
         Scene {
             name: "vehicles_cylinders",
             about: "the same, wheels by cylinder casts",
-            warm_up: 240,
+            warm_up: 120,
             build: |sim, side, count| traffic(sim, side, count, WheelProbe::Cylinder),
         },
         Scene {
             name: "vehicles_parked",
             about: "the same, all parked",
-            warm_up: 400,
+            warm_up: 240,
             build: parked,
+        },
+    ],
+    compared: &[
+        Compared {
+            scene: "vehicles",
+            tag: "probe=ray",
+            label: "wheels by rays",
+            ratio: None,
+            most: Some(10.0),
+        },
+        Compared {
+            scene: "vehicles_cylinders",
+            tag: "probe=cylinder",
+            label: "wheels by cylinder casts",
+            ratio: None,
+            most: Some(25.0),
         },
     ],
     plugin: add_plugin,
@@ -45,26 +61,15 @@ pub const SUBJECT: Subject = Subject {
     // Nobody gets above this without being thrown.
     level: LOWEST - 0.3..4.0,
     count: 1000,
-    steps: 300,
-    variants: &[
-        Variant {
-            scene: "vehicles_cylinders",
-            name: "cylinders",
-            label: "wheels by cylinder casts, one thread",
-            count: 1000,
-            most: 25.0,
-        },
-        Variant {
-            scene: "vehicles_parked",
-            name: "parked",
-            label: "parked",
-            count: 1000,
-            most: 0.3,
-        },
-    ],
+    steps: 200,
+    variants: &[Variant {
+        scene: "vehicles_parked",
+        name: "parked",
+        label: "parked",
+        count: 1000,
+        most: 0.3,
+    }],
     bounds: Bounds {
-        ratio: None,
-        most: Some(10.0),
         speed_up: 1.7,
         growth: 1.2,
     },
