@@ -9,7 +9,7 @@ use bevy::prelude::*;
 pub struct Tire {
     /// Force against slip along the wheel.
     pub along: TireModel,
-    /// Force against the tangent of the slip angle across the wheel.
+    /// Force against the sine of the slip angle across the wheel.
     pub across: TireModel,
     /// Friction coefficient at [`Self::nominal_load`] on a surface of friction 1, dimensionless, at
     /// least 0: along the wheel, across it. At 0 the car is on perfect ice.
@@ -49,7 +49,7 @@ impl Default for Tire {
 }
 
 /// Force of one axis against slip: the shape of the curve. Slip is dimensionless, the slip ratio or
-/// the tangent of the slip angle.
+/// the sine of the slip angle.
 #[derive(Reflect, Clone, Debug, PartialEq)]
 #[reflect(Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]

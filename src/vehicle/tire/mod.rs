@@ -2,7 +2,7 @@
 //!
 //! A patch that slips against the ground with the velocity `s` (metres per second, along and across
 //! the wheel), while the wheel travels with the speed `V`, gives a force that depends on `s / V`:
-//! the slip ratio along, the tangent of the slip angle across. Each axis has its own curve
+//! the slip ratio along, the sine of the slip angle across. Each axis has its own curve
 //! ([`TireModel`]); together they lie on the friction ellipse: with the combined slip
 //! `ρ = |(C_x s_x, C_y s_y)| / (µ N V)` each axis gives its curve's value at `ρ`, in the proportion of
 //! its share of `ρ`. A patch in full slide is pushed against its velocity.
