@@ -15,6 +15,7 @@
 mod accuracy;
 mod alloc;
 mod bounds;
+mod options;
 mod peer;
 mod peers;
 mod probe;
@@ -44,9 +45,9 @@ enum Command {
     /// Cost beside Rapier's own controller, speed-up by threads, scaling, idle cost, allocations.
     Peers(peers::Options),
     /// Where explicit integration breaks, and ours does not.
-    Stability(stability::Options),
+    Stability(options::Selection),
     /// What comes out beside closed forms, of ours and of Rapier's controller.
-    Accuracy(accuracy::Options),
+    Accuracy(options::Selection),
     /// Runs one world in this process, for a profiler or by hand.
     Profile(run::Options),
     /// Lists the scenes.

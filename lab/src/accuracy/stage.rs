@@ -18,6 +18,7 @@ const BRAKE: f32 = 40_000.0 / 4.0 / RADIUS;
 
 pub struct Stage {
     pub sim: Sim,
+    hz: f64,
     side: Side,
     car: Option<Car>,
     body: Entity,
@@ -42,6 +43,7 @@ impl Stage {
         };
         Self {
             sim: Sim::with(hz, (EmbodyCorePlugin, plugin)),
+            hz,
             side,
             car: None,
             body: Entity::PLACEHOLDER,
@@ -95,13 +97,52 @@ impl Stage {
     pub fn roll(&mut self, velocity: Vec3) {
         match &self.car {
             Some(car) => car.clone().roll(&mut self.sim, velocity),
-            None => {
-                let world = self.sim.app.world_mut();
-                if let Some(mut now) = world.get_mut::<Velocity>(self.body) {
-                    now.linear = velocity;
-                }
-            }
+            None => self.push(velocity),
         }
+    }
+
+    /// Sets the car's velocity, its wheels left as they turn.
+    pub fn push(&mut self, velocity: Vec3) {
+        let world = self.sim.app.world_mut();
+        if let Some(mut now) = world.get_mut::<Velocity>(self.body) {
+            now.linear = velocity;
+        }
+    }
+
+    /// Adds components to the car.
+    pub fn equip(&mut self, bundle: impl Bundle) {
+        self.sim
+            .app
+            .world_mut()
+            .entity_mut(self.body)
+            .insert(bundle);
+    }
+
+    /// The car, if it is ours.
+    pub fn own(&self) -> Option<Car> {
+        self.car.clone()
+    }
+
+    /// Moment of inertia of each wheel: Rapier's have none.
+    pub fn wheel_inertia(&self) -> f64 {
+        match self.side {
+            Side::Ours => 1.0,
+            Side::Rapier => 0.0,
+        }
+    }
+
+    pub fn is_ours(&self) -> bool {
+        self.side == Side::Ours
+    }
+
+    /// Ticks per second.
+    pub fn hz(&self) -> f64 {
+        self.hz
+    }
+
+    /// The same stage, empty, at another tick rate.
+    pub fn again(&self, hz: f64) -> Self {
+        Self::new(hz, self.side)
     }
 
     pub fn velocity(&self) -> Velocity {

@@ -5,31 +5,18 @@ mod plot;
 mod quarter_car;
 mod wheel_slip;
 
-use std::{path::PathBuf, process::ExitCode};
+use std::process::ExitCode;
 
-use clap::Args;
-
-use crate::table::{Table, number};
+use crate::{
+    options::Selection,
+    table::{Table, number},
+};
 
 /// All maps. A new one is a function.
 const MAPS: &[(&str, fn(bool) -> Map)] = &[
     ("vehicle_suspension", quarter_car::map),
     ("vehicle_tire", wheel_slip::map),
 ];
-
-/// What to measure.
-#[derive(Args, Clone, Debug)]
-pub struct Options {
-    /// Only maps whose name contains this.
-    #[arg(long)]
-    filter: Option<String>,
-    /// Fewer points.
-    #[arg(long)]
-    quick: bool,
-    /// Writes each map as Markdown, CSV and SVG into this folder.
-    #[arg(long)]
-    out: Option<PathBuf>,
-}
 
 /// The limits of several methods along one axis.
 pub struct Map {
@@ -56,10 +43,9 @@ pub struct Limit {
 }
 
 /// Measures, prints, judges.
-pub fn run(options: &Options) -> Result<ExitCode, String> {
-    let filter = options.filter.as_deref().unwrap_or_default();
+pub fn run(options: &Selection) -> Result<ExitCode, String> {
     let mut broken = false;
-    for (_, map) in MAPS.iter().filter(|(name, _)| name.contains(filter)) {
+    for (_, map) in MAPS.iter().filter(|(name, _)| options.wants(name)) {
         let map = map(options.quick);
         let table = table(&map);
         println!("{}\n\n{}", map.title, table.markdown());
