@@ -105,7 +105,9 @@ pub fn run(options: &Selection) -> Result<ExitCode, String> {
                     " (open: not judged)"
                 }
             ),
-            format!("{} {}", number(case.asked), case.unit),
+            format!("{} {}", number(case.asked), case.unit)
+                .trim_end()
+                .to_owned(),
         ];
         row.extend(ours);
         row.extend(peers);
@@ -149,7 +151,10 @@ fn error(case: &Case, value: f64) -> String {
                 format!("{percent:+.2} %")
             }
         }
-        None => format!("{} {}", number(off), case.unit),
+        None => {
+            let shown = format!("{} {}", number(off), case.unit);
+            shown.trim_end().to_owned()
+        }
     }
 }
 

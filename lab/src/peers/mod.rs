@@ -11,7 +11,7 @@ use crate::{
     bounds::{Check, Must},
     readme,
     side::Side,
-    subject::{self, Subject},
+    subject::{self, Compared, Subject},
 };
 use output::{ratio, short};
 use world::{Turns, World};
@@ -196,15 +196,26 @@ fn judge_sides(subject: &Subject, sides: &[Vec<World>], checks: &mut Vec<Check>)
             timing("microseconds", ours, compared.most);
         }
     }
-    let [one, two] = sides else { return };
-    for ((compared, one), two) in subject.compared.iter().zip(one).zip(two) {
-        let speed_up = one.wall() / two.wall();
-        let about = about(subject, two.options.threads, compared.tag);
+    for (compared, speed_up) in speed_ups(subject, sides) {
+        let about = about(subject, THREADS[1], compared.tag);
         println!("peers {about} speedup={speed_up:.2}x");
         let what = format!("speed-up by two threads {}", compared.tag);
         let least = subject.bounds.speed_up;
         checks.push(Check::timing(what.trim(), speed_up, Must::BeAtLeast, least));
     }
+}
+
+/// By what factor the second thread makes each of ours faster.
+fn speed_ups<'a>(
+    subject: &'a Subject,
+    sides: &'a [Vec<World>],
+) -> impl Iterator<Item = (&'a Compared, f64)> {
+    let on = |i: usize| sides.get(i).map_or(&[][..], Vec::as_slice);
+    let pairs = on(0).iter().zip(on(1));
+    let compared = subject.compared.iter();
+    compared
+        .zip(pairs)
+        .map(|(c, (one, two))| (c, one.wall() / two.wall()))
 }
 
 /// What a line of results is about.

@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use serde::Serialize;
 
-use super::{Results, World};
+use super::{Results, World, speed_ups};
 use crate::{bounds::Check, side::Side, subject::Subject};
 
 /// One line of results.
@@ -104,13 +104,23 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
     let Some((rapier, [ours, ..])) = results.sides.first().and_then(|w| w.split_last()) else {
         return table;
     };
+    let speed_ups: Vec<String> = speed_ups(subject, &results.sides)
+        .map(|(compared, factor)| {
+            if compared.label.is_empty() {
+                format!("{factor:.2}")
+            } else {
+                format!("{factor:.2} ({})", compared.label)
+            }
+        })
+        .collect();
     table += &format!(
-        "\nThere are {} {}. Heap allocations per tick after warm-up: {}. The state after {} ticks is the same, bit for bit,\n\
+        "\nThere are {} {}. A second thread makes them faster by {}. Heap allocations per tick after warm-up: {}. The state after {} ticks is the same, bit for bit,\n\
          on one thread and two. {}\n\
          A whole update of the app, physics step included, on one thread: {:.1} ms and {:.1} ms.\n\
          Medians of {repeats} runs in turns on {}.\n",
         subject.count,
         subject.name,
+        speed_ups.join(", "),
         short(ours.allocations()),
         ours.options.steps,
         subject.counted,
