@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use bevy::{math::ops, prelude::*};
 
-use super::{Found, Surroundings};
+use super::{Found, Surroundings, sense::Touch};
 use crate::{
     backend::{
         hold::Hold,
@@ -38,8 +38,13 @@ pub(super) fn build<'a>(
     let own_mass = rigid.mass;
     let mut moved = [Vec3::ZERO; MOST_WHEELS];
     let mut falls = [Vec3::ZERO; MOST_WHEELS];
+    let way = (rigid.velocity - state.ground_velocity).normalize_or_zero();
+    let bend = bend(found, rigid.center, way);
+    // The step moves a body a little more by its last velocity than by its first: it is that much
+    // nearer to the middle of the curve already.
+    let ahead = (1.0 - s.view.end_share()) * s.dt;
     for (i, f) in found.iter().enumerate() {
-        let Some(touch) = f.contact else { continue };
+        let Some(mut touch) = f.contact else { continue };
         let wheel = s.wheels[i];
         let last = &state.wheels[i];
         let Some(motion) = s.view.ground_motion(touch.entity, s.dt) else {
@@ -69,6 +74,10 @@ pub(super) fn build<'a>(
         if !ground_start.is_finite() || !ground_end.is_finite() {
             continue;
         }
+        // On a curve the normal of the start leans forward against that of the way to come: its force
+        // would drive the vehicle.
+        let turned = bend.turn((own_velocity - ground_start) * ahead);
+        touch.normal = (touch.normal + turned).normalize_or(touch.normal);
         let same_ground = last.ground == Some(touch.entity);
         let ground = match motion {
             GroundMotion::Free { body, rigid } if !rigid.sleeping => {
@@ -172,6 +181,45 @@ pub(super) fn build<'a>(
         ground.begin(moved[i], falls[i]);
     }
     join_bars(s, config, found, contacts);
+}
+
+/// How the ground bends along a vehicle's way.
+struct Bend {
+    way: Vec3,
+    /// Change of the normal, 1/m.
+    rate: Vec3,
+}
+
+impl Bend {
+    /// By how much the normal turns while a wheel goes this far.
+    fn turn(&self, path: Vec3) -> Vec3 {
+        self.rate * path.dot(self.way)
+    }
+}
+
+/// The line of least squares through the normals under all wheels.
+fn bend(found: &[Found], center: Vec3, way: Vec3) -> Bend {
+    let touches = || found.iter().filter_map(|f| f.contact);
+    let share = 1.0 / touches().count().max(1) as f32;
+    let place = |touch: &Touch| (touch.point - center).dot(way);
+    let (mut middle, mut normal) = (0.0, Vec3::ZERO);
+    for touch in touches() {
+        middle += place(&touch) * share;
+        normal += touch.normal * share;
+    }
+    let (mut spread, mut rate) = (0.0, Vec3::ZERO);
+    for touch in touches() {
+        let off = place(&touch) - middle;
+        spread += off * off;
+        rate += (touch.normal - normal) * off;
+    }
+    // Wheels of one axle tell nothing.
+    let rate = if spread > 0.01 {
+        rate / spread
+    } else {
+        Vec3::ZERO
+    };
+    Bend { way, rate }
 }
 
 /// A body under a wheel as far as it gives way: along what holds it, it does not.
