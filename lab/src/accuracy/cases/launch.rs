@@ -3,7 +3,7 @@
 //! Where a force is more than an axle holds, its wheels spin and it gives `µ N`. With equal forces on
 //! both axles the front one, which loses load, does so long before the rear: all-wheel drive reaches
 //! `µ g` only where the rear is given what it can carry. What spins wheels up turns the body the other
-//! way, and wheels that are not driven are spun up by the ground ([`rigid_car`]).
+//! way, and wheels that are not driven are spun up by the ground.
 
 use bevy::prelude::*;
 
