@@ -3,9 +3,10 @@
 //! Physics runs at the rate of [`Time<Fixed>`], frames are drawn at another. With
 //! [`EmbodyInterpolationPlugin`], which [`EmbodyPlugins`](crate::EmbodyPlugins) contains, the
 //! [`Transform`] of every [`Interpolated`] entity holds, outside the fixed schedules, a pose between
-//! those of the last two ticks; inside them it holds the exact pose. Characters and vehicles are
-//! interpolated by themselves; add [`Interpolated`] to other bodies that are seen moving. To leave one
-//! out, give it [`NotInterpolated`]; to leave all out, as on a server, disable the plugin:
+//! those of the last two ticks; inside them it holds the exact pose. Characters, vehicles and the
+//! bones of ragdolls are interpolated by themselves; add [`Interpolated`] to other bodies that are seen
+//! moving. To leave one out, give it [`NotInterpolated`]; to leave all out, as on a server, disable the
+//! plugin:
 //!
 //! ```
 //! # use bevy::prelude::*;
@@ -81,6 +82,13 @@ impl Plugin for EmbodyInterpolationPlugin {
         {
             use crate::vehicle::Vehicle;
             let _ = app.try_register_required_components::<Vehicle, Interpolated>();
+        }
+
+        #[cfg(feature = "ragdoll")]
+        {
+            use crate::ragdoll::{FollowRoot, RagdollBone};
+            let _ = app.try_register_required_components::<RagdollBone, Interpolated>();
+            let _ = app.try_register_required_components::<FollowRoot, Interpolated>();
         }
 
         app.add_systems(

@@ -4,9 +4,12 @@
 #![warn(clippy::disallowed_methods)]
 
 mod backend;
+#[cfg(all(feature = "character", feature = "ragdoll"))]
+pub mod bridge;
 #[cfg(any(
     all(feature = "character", any(feature = "debug", feature = "egui")),
-    all(feature = "vehicle", feature = "debug")
+    all(feature = "vehicle", feature = "debug"),
+    all(feature = "ragdoll", feature = "debug")
 ))]
 pub mod debug;
 #[cfg(any(feature = "character", feature = "vehicle"))]
@@ -37,6 +40,8 @@ pub use backend::checks::{EmbodyDiagnosis, EmbodyProblem};
 pub use debug::EmbodyDebugPlugin;
 #[cfg(all(feature = "character", feature = "egui"))]
 pub use debug::EmbodyInspectorPlugin;
+#[cfg(all(feature = "ragdoll", feature = "debug"))]
+pub use debug::RagdollDebugPlugin;
 #[cfg(all(feature = "vehicle", feature = "debug"))]
 pub use debug::VehicleDebugPlugin;
 #[cfg(feature = "character")]
@@ -63,6 +68,8 @@ impl PluginGroup for EmbodyPlugins {
         let group = group.add(vehicle::VehiclePlugin);
         #[cfg(feature = "ragdoll")]
         let group = group.add(ragdoll::RagdollPlugin);
+        #[cfg(all(feature = "character", feature = "ragdoll"))]
+        let group = group.add(bridge::CharacterRagdollPlugin);
         group
     }
 }
@@ -84,6 +91,12 @@ pub mod prelude {
     #[cfg(feature = "vehicle")]
     #[doc(hidden)]
     pub use crate::VehicleDiagnostics;
+    #[cfg(all(feature = "character", feature = "ragdoll"))]
+    #[doc(hidden)]
+    pub use crate::bridge::{
+        BecomeRagdoll, BodyPhase, CharacterRagdoll, CharacterRagdollPlugin, CharacterRagdollState,
+        FallCommands, FellDown, Recover, StoodUp,
+    };
     #[cfg(feature = "character")]
     #[doc(hidden)]
     pub use crate::character::{
@@ -97,10 +110,12 @@ pub mod prelude {
     #[cfg(feature = "ragdoll")]
     #[doc(hidden)]
     pub use crate::ragdoll::{
-        BodyPart, BoneControl, BoneMass, BoneOf, BoneOutput, BonePose, BoneProfile, BoneShape,
-        BoneSource, Bones, HumanoidDetail, HumanoidRig, JointKind, JointProfile, JointSoftness,
-        Ragdoll, RagdollBone, RagdollDrive, RagdollIntent, RagdollMode, RagdollPlugin, RagdollPose,
-        RagdollProfile, RagdollState,
+        BakeRagdoll, BodyPart, BoneControl, BoneJoint, BoneMass, BoneOf, BoneOutput, BonePose,
+        BoneProfile, BoneShape, BoneSource, Bones, CameToRest, Dismember, FollowRoot, GetUp,
+        GetUpClip, GetsUp, HitCommands, HitReaction, HumanoidDetail, HumanoidRig, JointBreak,
+        JointBroke, JointKind, JointProfile, JointSoftness, Ragdoll, RagdollBlend, RagdollBone,
+        RagdollDrive, RagdollFromSkin, RagdollHit, RagdollIntent, RagdollMode, RagdollPlugin,
+        RagdollPose, RagdollProfile, RagdollReady, RagdollRest, RagdollState, Reattach,
     };
     #[cfg(feature = "vehicle")]
     #[doc(hidden)]

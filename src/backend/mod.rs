@@ -14,6 +14,8 @@ pub(crate) mod teleport;
 pub(crate) mod activity;
 #[cfg(feature = "character")]
 pub(crate) mod collider;
+#[cfg(feature = "ragdoll")]
+mod floor;
 #[cfg(any(feature = "character", feature = "vehicle", feature = "ragdoll"))]
 #[cfg_attr(
     not(feature = "character"),

@@ -1,5 +1,7 @@
 //! Seeing and tuning: gizmos (feature `debug`), the egui panel and its plots (feature `egui`).
 
+#[cfg(all(feature = "ragdoll", feature = "debug"))]
+mod bones;
 #[cfg(feature = "character")]
 mod explain;
 #[cfg(all(feature = "character", feature = "debug"))]
@@ -13,6 +15,8 @@ mod trail;
 #[cfg(all(feature = "vehicle", feature = "debug"))]
 mod wheels;
 
+#[cfg(all(feature = "ragdoll", feature = "debug"))]
+pub use bones::{RagdollDebugPlugin, RagdollGizmos};
 #[cfg(feature = "character")]
 pub use explain::Explain;
 #[cfg(all(feature = "character", feature = "debug"))]

@@ -59,4 +59,6 @@ pub(crate) struct BoneTies {
     pub soft: Option<JointHandle>,
     pub drive: Option<JointHandle>,
     pub pin: Option<JointHandle>,
+    /// Keeps it from colliding with the bone that it was cut off from.
+    pub apart: Option<JointHandle>,
 }

@@ -3,8 +3,8 @@
 use bevy::prelude::*;
 
 use super::{
-    humanoid::HumanoidDetail, intent::RagdollIntent, plan::RagdollPlan, pose::RagdollPose,
-    profile::RagdollProfile, state::RagdollState,
+    blend::RagdollBlend, humanoid::HumanoidDetail, intent::RagdollIntent, plan::RagdollPlan,
+    pose::RagdollPose, profile::RagdollProfile, rest::RagdollRest, state::RagdollState,
 };
 
 /// A ragdoll: add it to an entity, and it gets [`Bones`](super::Bones), bodies of their own at the top
@@ -42,6 +42,13 @@ pub struct Ragdoll {
     pub max_spin: f32,
     /// How long a switch to a kinematic mode takes to leave the pose it came from, seconds, at least 0.
     pub fade: f32,
+    /// How animation and physics are mixed in what is shown.
+    pub blend: RagdollBlend,
+    /// When it counts as lying still, and what then.
+    pub rest: RagdollRest,
+    /// Greatest speed of a bone in [`RagdollMode::Keyframed`](super::RagdollMode::Keyframed), metres per
+    /// second, above 0. Pressed against a wall with much more than 10 it trembles.
+    pub keyframe_speed: f32,
     /// How often the solver goes over the joints in each substep, at least 1. It is a setting of the
     /// whole physics world, where the largest that is asked for counts.
     pub iterations: u8,
@@ -92,6 +99,9 @@ impl Default for Ragdoll {
             max_speed: 100.0,
             max_spin: 47.0,
             fade: 0.25,
+            blend: RagdollBlend::default(),
+            rest: RagdollRest::default(),
+            keyframe_speed: 10.0,
             iterations: 4,
         }
     }

@@ -3,14 +3,21 @@
 use bevy::{prelude::*, transform::helper::TransformHelper};
 
 use super::{
+    blend::{BoneJoint, Skeletons},
     bone::{BoneTies, Bones, RagdollBone},
     config::Ragdoll,
+    hit,
     intent::{BoneControl, RagdollIntent, RagdollMode, part},
+    keyframe,
     plan::RagdollPlan,
     pose::{BonePose, BoneSource, RagdollPose},
     prepare::wanted,
+    rest,
+    rise::{self, GetUp},
+    sever,
     state::{BoneBody, RagdollState},
-    tick::{self, BoneForce, Carried, Slot, Way},
+    tick::{self, BoneForce, Slot, Way},
+    weight::{self, Carried},
 };
 use crate::backend::{
     handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
@@ -68,17 +75,18 @@ pub(super) fn tie(
                 continue;
             };
             worlds.need_iterations(link, usize::from(config.iterations.max(1)));
-            let planned = &plan.bones[bone.order];
-            let Some((_, parent)) = planned.parent.and_then(|p| handles[p]) else {
-                continue;
-            };
-            let (rows, soft) = planned.split();
-            let frames = &planned.frames;
-            ties.limit = worlds.tie(link, &parent, handle, frames, &rows, None);
-            ties.soft = soft.and_then(|(rows, spring)| {
-                worlds.tie(link, &parent, handle, frames, &rows, spring)
-            });
-            ties.drive = worlds.motorize(link, &parent, handle, frames);
+            let parent = plan.bones[bone.order].parent.and_then(|p| handles[p]);
+            if let Some((_, parent)) = parent {
+                sever::tie_bone(
+                    &mut worlds,
+                    &plan,
+                    bone.order,
+                    link,
+                    &parent,
+                    handle,
+                    &mut ties,
+                );
+            }
         }
         for (i, j) in plan.apart.iter() {
             if let (Some((link, a)), Some((_, b))) = (handles[*i], handles[*j]) {
@@ -92,19 +100,22 @@ pub(super) fn tie(
 /// Where a bone is asked to be at the end of the tick.
 fn asked(
     helper: &TransformHelper,
+    skeletons: &Skeletons,
+    joint: Option<&BoneJoint>,
     source: Option<&BoneSource>,
     pose: &RagdollPose,
     root: &Transform,
     plan: &RagdollPlan,
     order: usize,
 ) -> Option<BonePose> {
-    let pose = match source {
-        Some(source) => {
+    let pose = match (joint, source) {
+        (Some(joint), _) => skeletons.asked(joint)?,
+        (None, Some(source)) => {
             let global = helper.compute_global_transform(source.0).ok()?;
             let (_, rotation, position) = global.to_scale_rotation_translation();
             BonePose { position, rotation }
         }
-        None => {
+        (None, None) => {
             let bone = &plan.bones[order];
             (pose.bones.get(bone.index).unwrap_or(&bone.bind)).seen_from(root)
         }
@@ -116,6 +127,7 @@ fn asked(
 pub(super) fn drive(
     time: Res<Time>,
     helper: TransformHelper,
+    skeletons: Skeletons,
     mut worlds: JointWorlds,
     mut forces: ResMut<BoneForces>,
     mut ragdolls: Query<(
@@ -126,8 +138,14 @@ pub(super) fn drive(
         &RagdollPlan,
         &mut RagdollState,
         &Bones,
+        Option<&GetUp>,
     )>,
-    mut bones: Query<(TiedBone, &BoneControl, Option<&BoneSource>)>,
+    mut bones: Query<(
+        TiedBone,
+        &BoneControl,
+        Option<&BoneJoint>,
+        Option<&BoneSource>,
+    )>,
     mut slots: Local<Vec<Option<Slot>>>,
     mut ways: Local<Vec<Option<Way>>>,
     mut carried: Local<Vec<Carried>>,
@@ -137,41 +155,66 @@ pub(super) fn drive(
     if !(dt > 0.0) {
         return;
     }
-    for (entity, config, intent, pose, plan, mut state, tied) in &mut ragdolls {
+    for (entity, config, intent, pose, plan, mut state, tied, clips) in &mut ragdolls {
         let count = plan.bones.len();
         if count == 0 || !plan.told || state.bones.len() != count {
             continue;
         }
+        let mode = rest::mode(intent, &state, config);
+        if rest::is_settled(mode, &state) {
+            state.bypass_change_detection().age += dt;
+            continue;
+        }
+        // While it was frozen nobody asked where the pose was.
+        let thaws = state.mode == RagdollMode::Frozen && mode != RagdollMode::Frozen;
         let Ok(root) = helper.compute_global_transform(entity) else {
             continue;
         };
         let (_, rotation, translation) = root.to_scale_rotation_translation();
         let root = Transform::from_translation(translation).with_rotation(rotation);
-        let driven = matches!(intent.mode, RagdollMode::Powered | RagdollMode::Partial);
+        let driven = matches!(
+            mode,
+            RagdollMode::Powered | RagdollMode::Partial | RagdollMode::HitBoxes
+        );
         slots.clear();
         slots.resize(count, None);
         for bone in tied.iter() {
-            let Ok(((is, link, handle, _), control, source)) = bones.get(bone) else {
+            let Ok(((is, link, handle, _), control, joint, source)) = bones.get(bone) else {
                 continue;
             };
             let Some(motion) = worlds.motion(link, handle) else {
                 continue;
             };
             let known = state.bones[is.order].target;
-            let asked = asked(&helper, source, pose, &root, plan, is.order);
+            let asked = asked(
+                &helper, &skeletons, joint, source, pose, &root, plan, is.order,
+            );
             let at = || plan.bones[is.order].bind.seen_from(&root);
             let target = asked.or(known).unwrap_or_else(at);
+            let cut = sever::is_cut(plan, &state, is.order);
             slots[is.order] = Some(Slot {
+                severed: state.bones[is.order].severed,
                 entity: bone,
                 link: *link,
                 handle: *handle,
                 motion,
-                body: wanted(intent.mode, control),
+                body: wanted(mode, control, plan, &state, is.order),
                 target,
-                before: known.unwrap_or(target),
-                strength: tick::strength(driven, intent.strength, control),
-                pin: if driven { part(control.pin) } else { 0.0 },
+                before: known.filter(|_| !thaws).unwrap_or(target),
+                strength: tick::strength(driven && !cut, intent.strength, control)
+                    * (1.0 - part(state.bones[is.order].hurt)),
+                pin: if driven && !cut {
+                    part(control.pin)
+                } else {
+                    0.0
+                },
+                keyed: mode == RagdollMode::Keyframed && !cut,
+                anew: false,
             });
+        }
+        if mode == RagdollMode::GettingUp {
+            let state = state.bypass_change_detection();
+            rise::wait_for_clip(clips, plan, state, &root, &mut slots);
         }
         let Some(first) = slots.iter().flatten().next() else {
             continue;
@@ -179,31 +222,31 @@ pub(super) fn drive(
         let Some((gravity, true)) = worlds.gravity(&first.link) else {
             continue;
         };
-        let parent_of = |i: usize| plan.bones[i].parent.and_then(|p| slots[p].as_ref());
+        let parent_of = |i: usize| tick::bearer(plan, &slots, i).and_then(|p| slots[p].as_ref());
         let stirred = (slots.iter().enumerate()).any(|(i, slot)| {
             slot.as_ref()
                 .is_some_and(|s| tick::stirs(s, parent_of(i), &state.bones[i]))
-        });
+        }) || !state.hits.is_empty();
         let simulated = |s: &Slot| s.body == BoneBody::Dynamic;
         let awake = stirred || (slots.iter().flatten()).any(|s| simulated(s) && !s.motion.sleeping);
         let follows = slots.iter().flatten().any(|s| !simulated(s));
-        if state.mode == intent.mode {
+        if state.mode == mode {
             state.bypass_change_detection().age += dt;
         } else {
-            state.mode = intent.mode;
+            state.mode = mode;
             state.age = 0.0;
         }
         if !awake && !follows {
             continue;
         }
-        let fade = match intent.mode {
+        let fade = match mode {
             RagdollMode::GettingUp => state.rise_time,
             _ => config.fade,
         };
         ways.clear();
         for (i, slot) in slots.iter().enumerate() {
             let way = slot.as_ref().map(|slot| {
-                let parent = plan.bones[i].parent.and_then(|p| ways[p].as_ref());
+                let parent = tick::bearer(plan, &slots, i).and_then(|p| ways[p].as_ref());
                 tick::change_over(&mut worlds, slot, parent, &mut state.bones[i], fade, dt)
             });
             ways.push(way);
@@ -239,7 +282,8 @@ pub(super) fn drive(
                     worlds.wake(&slot.link, &slot.handle);
                 }
                 worlds.cap(&slot.link, &slot.handle, config.max_speed, config.max_spin);
-                if let Some(parent) = plan.bones[i].parent.and_then(|p| slots[p].as_ref()) {
+                if let Some(parent) = tick::bearer(plan, &slots, i).and_then(|p| slots[p].as_ref())
+                {
                     tick::drive(
                         &mut worlds,
                         config,
@@ -250,10 +294,24 @@ pub(super) fn drive(
                         step,
                     );
                 }
+                if slot.keyed {
+                    let bone = &plan.bones[i];
+                    keyframe::send_by_velocity(
+                        &mut worlds,
+                        config,
+                        bone,
+                        slot,
+                        gravity,
+                        dt,
+                        &mut forces.0,
+                    );
+                }
             }
         }
+        let state = state.bypass_change_detection();
+        hit::deliver(&mut worlds, config, plan, &slots, state);
         if driven {
-            tick::bear_weight(config, plan, &slots, gravity, &mut carried, &mut forces.0);
+            weight::bear_weight(config, plan, &slots, gravity, &mut carried, &mut forces.0);
         }
     }
 }

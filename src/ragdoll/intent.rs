@@ -39,6 +39,10 @@ pub enum RagdollMode {
     Partial,
     /// Simulated, and driven to the pose.
     Powered,
+    /// Simulated, and given each tick the velocity that takes every bone to its place in the world: it is
+    /// where the pose is as long as nothing is in the way, and shoves what is loose aside. Muscles have
+    /// no part in it.
+    Keyframed,
     /// Simulated, without muscles.
     #[default]
     Limp,
@@ -61,6 +65,9 @@ pub struct BoneControl {
     pub pin: f32,
     /// Whether it is simulated in [`RagdollMode::Partial`].
     pub simulated: bool,
+    /// Part of the physics in what is shown of it while it is simulated, `0..=1`; the rest is the
+    /// animation. Matters to bones with a [`BoneJoint`](super::BoneJoint).
+    pub blend: f32,
 }
 
 impl Default for BoneControl {
@@ -69,6 +76,7 @@ impl Default for BoneControl {
             strength: 1.0,
             pin: 0.0,
             simulated: false,
+            blend: 1.0,
         }
     }
 }

@@ -6,24 +6,42 @@
 //! each joint is a spring of a frequency in hertz with the inertia of all that hangs on it, aimed at the
 //! pose by a frame of its own, so that it arrives from any rotation; weight is borne by a torque worked
 //! out for the pose, so that it does not sag.
+//!
+//! A skeleton is shown by its bones through [`BoneJoint`]s, which [`RagdollFromSkin`] makes of a loaded
+//! figure. Figures are hit ([`HitCommands`]), noticed and frozen when they lie still ([`RagdollRest`]),
+//! get up ([`GetUp`]), and lose limbs ([`Dismember`]).
 
+#[cfg(feature = "serialize")]
+mod asset;
+mod bake;
+mod blend;
 mod bone;
 mod conditioning;
 mod config;
 mod drive;
+mod follow;
+mod hit;
 mod humanoid;
 mod intent;
+mod keyframe;
 mod limits;
 mod math;
 mod names;
+#[cfg(any(feature = "debug", test))]
+mod outline;
 mod plan;
 mod pose;
 mod prepare;
 mod profile;
 mod react;
+mod rest;
+mod rise;
+mod sever;
+mod skin;
 mod state;
 mod tick;
 mod validate;
+mod weight;
 
 use bevy::prelude::*;
 use bevy_rapier3d::prelude::PhysicsSet;
@@ -35,17 +53,34 @@ use crate::{
     schedule::EmbodySystems,
 };
 
+#[cfg(feature = "serialize")]
+pub use asset::{RagdollFromProfile, RagdollProfileError, RagdollProfileLoader};
+pub use bake::BakeRagdoll;
+pub use blend::{BoneJoint, RagdollBlend};
 pub use bone::{BoneOf, BoneOutput, Bones, RagdollBone};
 pub use config::{Ragdoll, RagdollDrive};
+pub use follow::FollowRoot;
+pub use hit::{HitCommands, HitReaction, RagdollHit};
 pub use humanoid::{BodyPart, HumanoidDetail, HumanoidRig};
 pub use intent::{BoneControl, RagdollIntent, RagdollMode};
 pub use math::inertialize::PoseOffset;
 pub use names::{NameMap, SkeletonBone, SkeletonMatch};
+#[cfg(feature = "debug")]
+pub(crate) use plan::PlannedBone;
+#[cfg(any(feature = "character", feature = "debug"))]
+pub(crate) use plan::RagdollPlan;
 pub use pose::{BonePose, BoneSource, RagdollPose};
 pub use profile::{
-    BoneMass, BoneProfile, BoneShape, JointKind, JointProfile, JointSoftness, RagdollProfile,
+    BoneMass, BoneProfile, BoneShape, JointBreak, JointKind, JointProfile, JointSoftness,
+    RagdollProfile,
 };
-pub use state::{BoneBody, BoneState, RagdollState};
+pub use rest::{CameToRest, RagdollRest};
+#[cfg(feature = "character")]
+pub(crate) use rise::find_place;
+pub use rise::{GetUp, GetUpClip, GetsUp, Lying};
+pub use sever::{Dismember, JointBroke, Reattach};
+pub use skin::{RagdollFromSkin, RagdollReady, SkinReport, fit_box, fit_capsule};
+pub use state::{BoneBody, BoneState, PendingHit, RagdollState};
 
 /// Where ragdolls work in a tick; each right behind the set of the same name of [`EmbodySystems`].
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,6 +108,22 @@ impl Plugin for RagdollPlugin {
             .register_type::<Bones>()
             .register_type::<BoneControl>()
             .register_type::<BoneOutput>()
+            .register_type::<BoneJoint>()
+            .register_type::<FollowRoot>()
+            .register_type::<HitReaction>()
+            .register_type::<RagdollHit>()
+            .register_type::<CameToRest>()
+            .register_type::<GetUp>()
+            .register_type::<GetsUp>()
+            .register_type::<Dismember>()
+            .register_type::<Reattach>()
+            .register_type::<JointBroke>()
+            .register_type::<BakeRagdoll>()
+            .add_observer(bake::bake)
+            .add_observer(bake::unmake)
+            .add_observer(hit::take)
+            .add_observer(sever::note_cut)
+            .add_observer(sever::note_joined)
             .init_resource::<ForcedBodies>()
             .init_resource::<PinAnchors>()
             .init_resource::<drive::BoneForces>()
@@ -93,22 +144,52 @@ impl Plugin for RagdollPlugin {
             FixedPostUpdate,
             RagdollSystems::Drive.after(crate::vehicle::VehicleSystems::Drive),
         );
+        #[cfg(feature = "serialize")]
+        app.add_systems(
+            FixedPostUpdate,
+            asset::build
+                .in_set(RagdollSystems::Prepare)
+                .before(prepare::build)
+                .run_if(any_with_component::<RagdollFromProfile>),
+        );
         app.add_systems(
             FixedPostUpdate,
             (
-                (prepare::build, prepare::switch)
+                (prepare::build, hit::feel, rise::begin, prepare::switch)
                     .chain()
                     .in_set(RagdollSystems::Prepare),
                 (
                     drive::admit_new,
                     drive::tie,
+                    sever::part,
                     drive::drive,
                     drive::apply_forces,
                 )
                     .chain()
                     .in_set(RagdollSystems::Drive),
-                react::observe.in_set(RagdollSystems::React),
+                (
+                    react::observe,
+                    sever::strain,
+                    rest::notice,
+                    blend::fade,
+                    follow::follow,
+                )
+                    .chain()
+                    .in_set(RagdollSystems::React),
             )
+                .run_if(any_with_component::<Ragdoll>),
+        )
+        .add_systems(
+            FixedPostUpdate,
+            skin::build
+                .in_set(RagdollSystems::Prepare)
+                .before(prepare::build)
+                .run_if(any_with_component::<RagdollFromSkin>),
+        )
+        .add_systems(
+            PostUpdate,
+            blend::show
+                .in_set(EmbodySystems::Present)
                 .run_if(any_with_component::<Ragdoll>),
         )
         // Also when the last ragdoll is gone.
@@ -118,5 +199,14 @@ impl Plugin for RagdollPlugin {
                 .after(PhysicsSet::SyncBackend)
                 .before(EmbodySystems::Drive),
         );
+    }
+
+    // Here it is known whether the app has assets.
+    #[cfg(feature = "serialize")]
+    fn finish(&self, app: &mut App) {
+        if app.world().contains_resource::<AssetServer>() {
+            app.init_asset::<RagdollProfile>()
+                .register_asset_loader(RagdollProfileLoader);
+        }
     }
 }

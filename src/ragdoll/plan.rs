@@ -23,6 +23,8 @@ pub(crate) struct RagdollPlan {
     pub apart: Vec<(usize, usize)>,
     /// Whether those pairs were told apart.
     pub told: bool,
+    /// Whether any joint can part.
+    pub breakable: bool,
     /// Substeps beyond those of the physics world.
     pub extra_substeps: usize,
     /// Kilograms.
@@ -147,6 +149,7 @@ impl RagdollPlan {
         let apart = apart(profile, &order, &bones);
         let figure = (sums.first()).map_or(Mat3::ZERO, |s| s.inertia);
         Self {
+            breakable: bones.iter().any(|b| b.joint.breaks.is_some()),
             bones,
             apart,
             told: false,

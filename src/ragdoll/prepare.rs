@@ -7,12 +7,15 @@ use bevy_rapier3d::prelude::{
 };
 
 use super::{
+    blend::BoneJoint,
     bone::{BoneOf, Bones, RagdollBone},
     config::Ragdoll,
     intent::{BoneControl, RagdollIntent, RagdollMode},
     plan::{PlannedBone, RagdollPlan},
     pose::RagdollPose,
     profile::BoneShape,
+    rest, sever,
+    skin::SkeletonJoints,
     state::{BoneBody, BoneState, RagdollState},
     validate,
 };
@@ -38,11 +41,12 @@ pub(super) fn build(
             &mut RagdollPlan,
             &mut RagdollState,
             Option<&Bones>,
+            Option<&SkeletonJoints>,
         ),
         Changed<Ragdoll>,
     >,
 ) {
-    for (entity, config, pose, transform, mut plan, mut state, bones) in &mut ragdolls {
+    for (entity, config, pose, transform, mut plan, mut state, bones, joints) in &mut ragdolls {
         for bone in bones.iter().flat_map(|b| b.iter()) {
             commands.entity(bone).despawn();
         }
@@ -64,7 +68,8 @@ pub(super) fn build(
             let asked = pose.bones.get(bone.index).filter(|p| p.is_sound());
             let place = asked.unwrap_or(&bone.bind).seen_from(transform);
             let name = &config.profile.bones[bone.index].name;
-            commands.spawn((
+            let joint = joints.and_then(|j| j.0.iter().find(|(of, ..)| of == name));
+            let mut made = commands.spawn((
                 Name::new(name.clone()),
                 RagdollBone {
                     index: bone.index,
@@ -75,6 +80,12 @@ pub(super) fn build(
                 AdditionalSolverIterations(plan.extra_substeps),
                 Transform::from_translation(place.position).with_rotation(place.rotation),
             ));
+            if let Some((_, joint, offset)) = joint {
+                made.insert(BoneJoint {
+                    joint: *joint,
+                    offset: *offset,
+                });
+            }
         }
     }
 }
@@ -118,11 +129,26 @@ fn body(bone: &PlannedBone, damping: f32) -> impl Bundle + use<> {
 }
 
 /// What a bone is in a mode.
-pub(super) fn wanted(mode: RagdollMode, control: &BoneControl) -> BoneBody {
+pub(super) fn wanted(
+    mode: RagdollMode,
+    control: &BoneControl,
+    plan: &RagdollPlan,
+    state: &RagdollState,
+    bone: usize,
+) -> BoneBody {
+    if sever::is_cut(plan, state, bone) {
+        return match mode {
+            RagdollMode::Frozen => BoneBody::Fixed,
+            _ => BoneBody::Dynamic,
+        };
+    }
+    // Flinches, unless it is the one that bears the others.
+    let flinches = || state.bones[bone].hurt > 0.0 && plan.bones[bone].parent.is_some();
     match mode {
         RagdollMode::Animated => BoneBody::Off,
-        RagdollMode::Powered | RagdollMode::Limp => BoneBody::Dynamic,
+        RagdollMode::Powered | RagdollMode::Keyframed | RagdollMode::Limp => BoneBody::Dynamic,
         RagdollMode::Partial if control.simulated => BoneBody::Dynamic,
+        RagdollMode::Partial | RagdollMode::HitBoxes if flinches() => BoneBody::Dynamic,
         RagdollMode::HitBoxes | RagdollMode::GettingUp | RagdollMode::Partial => {
             BoneBody::Kinematic
         }
@@ -133,19 +159,30 @@ pub(super) fn wanted(mode: RagdollMode, control: &BoneControl) -> BoneBody {
 /// Makes of every bone the kind of body that its mode asks for.
 pub(super) fn switch(
     mut commands: Commands,
-    ragdolls: Query<(&RagdollIntent, &RagdollState, &Bones)>,
+    ragdolls: Query<(
+        &Ragdoll,
+        &RagdollIntent,
+        &RagdollPlan,
+        &RagdollState,
+        &Bones,
+    )>,
     bones: Query<(&RagdollBone, &BoneControl)>,
 ) {
-    for (intent, state, tied) in &ragdolls {
+    for (config, intent, plan, state, tied) in &ragdolls {
+        let mode = rest::mode(intent, state, config);
+        if rest::is_settled(mode, state) {
+            continue;
+        }
         for entity in tied.iter() {
             let Ok((bone, control)) = bones.get(entity) else {
                 continue;
             };
-            let now = state
-                .bones
-                .get(bone.order)
-                .map_or(BoneBody::Off, |b| b.body);
-            let want = wanted(intent.mode, control);
+            let (Some(known), true) = (state.bones.get(bone.order), bone.order < plan.bones.len())
+            else {
+                continue;
+            };
+            let now = known.body;
+            let want = wanted(mode, control, plan, state, bone.order);
             if want == now {
                 continue;
             }

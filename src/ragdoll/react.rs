@@ -4,10 +4,11 @@ use bevy::prelude::*;
 
 use super::{
     bone::{BoneOutput, Bones, RagdollBone},
+    intent::RagdollMode,
     math::rotation::angle,
     plan::RagdollPlan,
     pose::BonePose,
-    state::{BoneBody, RagdollState},
+    state::{BoneBody, BoneState, RagdollState},
 };
 use crate::backend::{
     handles::{RapierContextEntityLink, RapierRigidBodyHandle},
@@ -31,6 +32,10 @@ pub(super) fn observe(
         if count == 0 || !plan.told || state.bones.len() != count {
             continue;
         }
+        let settled = |b: &BoneState| b.body == BoneBody::Fixed && b.velocity == Vec3::ZERO;
+        if state.mode == RagdollMode::Frozen && state.age > 0.0 && state.bones.iter().all(settled) {
+            continue;
+        }
         motions.clear();
         motions.resize(count, None);
         for (bone, link, handle, _) in bones.iter_many(tied.iter()) {
@@ -46,7 +51,7 @@ pub(super) fn observe(
             if known.body == BoneBody::Off {
                 continue;
             }
-            if motion.sleeping && output.asleep {
+            if motion.sleeping && output.asleep && output.simulated == motion.dynamic {
                 continue;
             }
             let planned = &plan.bones[i];
@@ -64,7 +69,8 @@ pub(super) fn observe(
                 asleep: motion.sleeping,
                 ..default()
             };
-            if let Some((p, parent)) = planned.parent.and_then(|p| Some((p, motions[p]?))) {
+            let parent = planned.parent.filter(|_| !known.severed);
+            if let Some((p, parent)) = parent.and_then(|p| Some((p, motions[p]?))) {
                 let pivot = parent.position + parent.rotation * planned.frames.anchor1;
                 measured.gap = pivot.distance(motion.position);
                 let q = planned.joint_rotation(parent.rotation, motion.rotation);

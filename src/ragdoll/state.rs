@@ -16,8 +16,27 @@ pub struct RagdollState {
     pub age: f32,
     /// How long it takes to rise, seconds.
     pub rise_time: f32,
+    /// How long nothing of it has moved, seconds; see [`RagdollRest`](super::RagdollRest).
+    pub still: f32,
+    /// The clip of its [`GetUp`](super::GetUp) that it waits for while it gets up.
+    pub rise: Option<usize>,
+    /// Hits that the next tick delivers.
+    pub hits: Vec<PendingHit>,
     /// The bones, parents before children, as in [`Bones`](super::Bones).
     pub bones: Vec<BoneState>,
+}
+
+/// A hit on its way.
+#[derive(Reflect, Clone, Copy, Debug, Default, PartialEq)]
+#[reflect(Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct PendingHit {
+    /// The bone, by its place in [`RagdollState::bones`].
+    pub bone: usize,
+    /// Where, world, metres.
+    pub point: Vec3,
+    /// Newton-seconds, world.
+    pub impulse: Vec3,
 }
 
 impl Default for RagdollState {
@@ -26,8 +45,25 @@ impl Default for RagdollState {
             mode: RagdollMode::default(),
             age: 0.0,
             rise_time: 0.5,
+            still: 0.0,
+            rise: None,
+            hits: Vec::new(),
             bones: Vec::new(),
         }
+    }
+}
+
+impl RagdollState {
+    /// This state made ready to be written onto a ragdoll of the same profile, whose bodies may be
+    /// elsewhere: its next tick puts every body where it was in this state, as fast as it was.
+    ///
+    /// A rollback that restores the physics world as well writes the state as it is instead.
+    pub fn to_restore(&self) -> Self {
+        let mut state = self.clone();
+        for bone in &mut state.bones {
+            bone.body = BoneBody::Off;
+        }
+        state
     }
 }
 
@@ -70,4 +106,14 @@ pub struct BoneState {
     pub borne: bool,
     /// What is left of the pose from which it went over to following.
     pub offset: PoseOffset,
+    /// Part of the physics in what is shown of it, `0..=1`.
+    pub shown: f32,
+    /// Part of its strength that a hit has taken, `0..=1`.
+    pub hurt: f32,
+    /// Time before it begins to come back, seconds.
+    pub dazed: f32,
+    /// Whether it is cut off from the bone that bears it.
+    pub severed: bool,
+    /// How long its joint has borne more than it can, seconds.
+    pub strained: f32,
 }

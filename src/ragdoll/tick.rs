@@ -31,6 +31,8 @@ const STILL: f32 = 1.0e-4;
 /// A bone in this tick.
 #[derive(Clone, Copy)]
 pub(super) struct Slot {
+    /// Whether it is cut off from the bone that bears it.
+    pub severed: bool,
     pub entity: Entity,
     pub link: RapierContextEntityLink,
     pub handle: RapierRigidBodyHandle,
@@ -42,6 +44,10 @@ pub(super) struct Slot {
     pub before: BonePose,
     pub strength: f32,
     pub pin: f32,
+    /// Whether it is sent to its pose by velocities.
+    pub keyed: bool,
+    /// Whether the pose asked for is another one from this tick on, and `before` is worth nothing.
+    pub anew: bool,
 }
 
 /// A force and a torque about the centre of mass for one tick.
@@ -94,10 +100,11 @@ pub(super) fn change_over(
     let leaves_physics = !in_pose(old) && in_pose(new);
     // Counted from something else than before, what is left of an offset begins anew.
     let rebased = in_pose(old) && in_pose(new) && state.borne != parent.is_some();
-    if state.target.is_some() && (leaves_physics || (rebased && !state.offset.is_over())) {
+    let anew = slot.anew && in_pose(old) && in_pose(new);
+    if state.target.is_some() && (leaves_physics || anew || (rebased && !state.offset.is_over())) {
         let to = followed(slot, parent, dt);
         let left = state.offset.duration - state.offset.age;
-        let fade = if leaves_physics { fade } else { left };
+        let fade = if leaves_physics || anew { fade } else { left };
         state.offset = if fade > 0.0 {
             PoseOffset::between(&was, &to, fade)
         } else {
@@ -135,6 +142,12 @@ pub(super) fn change_over(
         }
         BoneBody::Dynamic if in_pose(old) => {
             let from = place.filter(|_| was_off);
+            // As it moved, not as the pose moves from here on: who lets go of a figure may have stopped
+            // moving it.
+            let (velocity, spin) = match state.target {
+                Some(_) => (state.velocity, state.spin),
+                None => (velocity, spin),
+            };
             worlds.place(link, handle, from, velocity, spin);
             state.offset = PoseOffset::default();
         }
@@ -191,10 +204,10 @@ pub(super) fn stirs(slot: &Slot, parent: Option<&Slot>, state: &BoneState) -> bo
     if slot.strength != state.strength || slot.pin != state.pin {
         return true;
     }
-    if slot.strength == 0.0 {
+    if slot.strength == 0.0 && !slot.keyed {
         return false;
     }
-    if slot.pin > 0.0
+    if (slot.pin > 0.0 || slot.keyed)
         && (slot.target.position.distance(slot.before.position) > STILL
             || angle(slot.before.rotation.inverse() * slot.target.rotation) > STILL)
     {
@@ -205,6 +218,12 @@ pub(super) fn stirs(slot: &Slot, parent: Option<&Slot>, state: &BoneState) -> bo
         let before = p.before.rotation.inverse() * slot.before.rotation;
         angle(before.inverse() * now) > STILL
     })
+}
+
+/// The bone that bears a bone, where their joint has not parted.
+pub(super) fn bearer(plan: &RagdollPlan, slots: &[Option<Slot>], bone: usize) -> Option<usize> {
+    let parent = plan.bones[bone].parent;
+    parent.filter(|_| slots[bone].as_ref().is_some_and(|s| !s.severed))
 }
 
 /// Part of a tick by which its substeps look ahead on the mean.
@@ -238,6 +257,10 @@ pub(super) fn drive(
     }
     let Some(joint) = ties.drive else { return };
     let f2 = bone.frames.rotation2;
+    if slot.keyed {
+        worlds.drive(link, joint, f2, &MotorRows::default());
+        return;
+    }
     if slot.strength <= 0.0 {
         let rows = MotorRows {
             damping: Vec3::splat(DRY),
@@ -299,92 +322,6 @@ pub(super) fn pin(
     let slides = rows(plan.mass * share, way / dt);
     let turns = rows(plan.inertia * share, turn / dt);
     worlds.drive_pin(link, joint, position, rotation, &slides, &turns);
-}
-
-/// What hangs on a bone.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Carried {
-    mass: f32,
-    /// Mass times centre, world.
-    moment: Vec3,
-    /// Whether it hangs from a bone that is held.
-    held: bool,
-    /// On the bone, from all its joints.
-    torque: Vec3,
-}
-
-/// Adds the torques by which driven joints bear the weight of what hangs on them, where they hang from a
-/// bone that is held.
-pub(super) fn bear_weight(
-    config: &Ragdoll,
-    plan: &RagdollPlan,
-    slots: &[Option<Slot>],
-    gravity: Vec3,
-    carried: &mut Vec<Carried>,
-    forces: &mut Vec<BoneForce>,
-) {
-    let bears = config.drive.gravity;
-    if !(bears > 0.0) {
-        return;
-    }
-    carried.clear();
-    for (bone, slot) in plan.bones.iter().zip(slots) {
-        let parent = bone
-            .parent
-            .and_then(|p| slots[p].as_ref().zip(carried.get(p)));
-        let held = parent.is_some_and(|(parent, c)| {
-            parent.body != BoneBody::Dynamic || parent.pin > 0.0 || c.held
-        });
-        let dynamic = slot.filter(|s| s.body == BoneBody::Dynamic);
-        let mass = dynamic.map_or(0.0, |_| bone.mass);
-        carried.push(Carried {
-            mass,
-            moment: dynamic.map_or(Vec3::ZERO, |s| s.motion.center * mass),
-            held: held && dynamic.is_some(),
-            torque: Vec3::ZERO,
-        });
-    }
-    for i in (0..plan.bones.len()).rev() {
-        let Some(p) = plan.bones[i].parent else {
-            continue;
-        };
-        let c = carried[i];
-        carried[p].mass += c.mass;
-        carried[p].moment += c.moment;
-    }
-    for (i, (bone, slot)) in plan.bones.iter().zip(slots).enumerate() {
-        let (Some(slot), Some(p), c) = (slot, bone.parent, carried[i]) else {
-            continue;
-        };
-        if !c.held || slot.strength <= 0.0 {
-            continue;
-        }
-        let most = bone.joint.max_torque * config.drive.torque * slot.strength;
-        let arm = c.moment - slot.motion.position * c.mass;
-        let torque = arm.cross(gravity) * (-bears * slot.strength);
-        let torque = torque.clamp_length_max(most);
-        carried[i].torque += torque;
-        carried[p].torque -= torque;
-    }
-    let pins = slots.iter().flatten().filter(|s| s.pin > 0.0).count();
-    for (slot, c) in slots.iter().zip(carried.iter()) {
-        let Some(slot) = slot.filter(|s| s.body == BoneBody::Dynamic) else {
-            continue;
-        };
-        let force = if slot.pin > 0.0 {
-            gravity * (-bears * plan.mass / pins as f32)
-        } else {
-            Vec3::ZERO
-        };
-        if force != Vec3::ZERO || c.torque != Vec3::ZERO {
-            forces.push(BoneForce {
-                link: slot.link,
-                handle: slot.handle,
-                force,
-                torque: c.torque,
-            });
-        }
-    }
 }
 
 /// How hard a bone is driven in a mode.

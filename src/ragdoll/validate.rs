@@ -7,7 +7,7 @@ use bevy::{math::Vec2, prelude::*};
 use super::{
     config::Ragdoll,
     plan::in_order,
-    profile::{BoneProfile, BoneShape, JointKind, RagdollProfile},
+    profile::{BoneProfile, BoneShape, JointKind, RagdollProfile, overlap},
 };
 
 /// Neighbours of masses that differ by more than this are hard on the solver.
@@ -37,6 +37,12 @@ pub(super) fn refuse(config: &Ragdoll) -> Option<String> {
         .or_else(|| positive("max_speed", config.max_speed))
         .or_else(|| positive("max_spin", config.max_spin))
         .or_else(|| not_negative("fade", config.fade))
+        .or_else(|| not_negative("blend.fade_in", config.blend.fade_in))
+        .or_else(|| not_negative("blend.fade_out", config.blend.fade_out))
+        .or_else(|| not_negative("rest.speed", config.rest.speed))
+        .or_else(|| not_negative("rest.time", config.rest.time))
+        .or_else(|| not_negative("rest.freeze_after", config.rest.freeze_after.unwrap_or(0.0)))
+        .or_else(|| positive("keyframe_speed", config.keyframe_speed))
         .or_else(|| positive("drive.frequency", config.drive.frequency))
         .or_else(|| not_negative("drive.damping_ratio", config.drive.damping_ratio))
         .or_else(|| part("drive.velocity", config.drive.velocity))
@@ -137,6 +143,11 @@ fn refuse_joint(bone: &BoneProfile) -> Option<String> {
     if !(joint.max_torque >= 0.0) {
         return Some(format!("has a greatest torque of {}", joint.max_torque));
     }
+    if let Some(breaks) = joint.breaks
+        && !(breaks.force > 0.0 && breaks.time >= 0.0)
+    {
+        return Some(format!("has a joint that parts at {breaks:?}"));
+    }
     if let Some(soft) = joint.softness
         && !(soft.frequency > 0.0 && soft.damping_ratio >= 0.0)
     {
@@ -200,7 +211,43 @@ pub(super) fn lint(config: &Ragdoll) -> Vec<String> {
             ));
         }
     }
+    for (i, a) in profile.bones.iter().enumerate() {
+        for b in &profile.bones[i + 1..] {
+            let deep = depth(a, b);
+            let named = (profile.no_contact.iter())
+                .any(|(x, y)| (*x == a.name && *y == b.name) || (*x == b.name && *y == a.name));
+            if deep > 0.0 && !named && !are_near(profile, a, b) {
+                lines.push(format!(
+                    "bones \"{}\" and \"{}\" lie {:.0} mm in each other in the bind pose and will not \
+                     collide: name the pair in `RagdollProfile::no_contact` if that is meant",
+                    a.name,
+                    b.name,
+                    deep * 1000.0
+                ));
+            }
+        }
+    }
     lines
+}
+
+/// How deep two bones lie in each other in the bind pose, metres.
+fn depth(a: &BoneProfile, b: &BoneProfile) -> f32 {
+    let at = |b: &BoneProfile| Transform::from_translation(b.position).with_rotation(b.rotation);
+    overlap(&a.shape, &at(a), &b.shape, &at(b))
+}
+
+/// Whether bones are so near in the tree that they cannot but lie in each other: at most two joints.
+fn are_near(profile: &RagdollProfile, a: &BoneProfile, b: &BoneProfile) -> bool {
+    let up = |b: &BoneProfile| b.parent.as_deref().and_then(|p| profile.bone(p));
+    let names = |b: &BoneProfile| {
+        let parent = up(b);
+        let grand = parent.and_then(up);
+        [parent, grand].map(|p| p.map(|p| p.name.clone()))
+    };
+    let (of_a, of_b) = (names(a), names(b));
+    let above =
+        |of: &[Option<String>; 2], b: &BoneProfile| of.iter().flatten().any(|n| *n == b.name);
+    above(&of_a, b) || above(&of_b, a) || (of_a[0].is_some() && of_a[0] == of_b[0])
 }
 
 #[cfg(test)]
@@ -264,8 +311,12 @@ mod tests {
             min: 0.3,
             max: 0.35,
         };
+        // A hand in the other thigh.
+        let thigh = config.profile.bone("thigh_r").unwrap().position;
+        config.profile.bone_mut("hand_l").unwrap().position = thigh - Vec3::Y * 0.2;
         let lines = lint(&config).join("\n");
         for part in [
+            "\"hand_l\" and \"thigh_r\" lie",
             "\"hand_l\" and \"forearm_l\" differ",
             "\"shin_l\" is 17 degrees beyond",
             "\"shin_l\" has a limit 2.9",

@@ -190,3 +190,44 @@ fn the_inspector_draws_the_panel_of_a_character_and_of_none() {
 /// The texts of the last pass.
 #[derive(Resource)]
 struct Texts(Vec<String>);
+
+#[test]
+fn a_ragdoll_in_any_mode_is_drawn() {
+    let mut sim = Sim::with(
+        60.0,
+        (
+            AssetPlugin::default(),
+            |app: &mut App| {
+                app.init_asset::<Mesh>()
+                    .init_asset::<SkinnedMeshInverseBindposes>();
+            },
+            GizmoPlugin,
+            embody(),
+            bevy_embody::RagdollDebugPlugin,
+        ),
+    );
+    sim.floor(0.0);
+    let all: Vec<Entity> = [
+        RagdollMode::Limp,
+        RagdollMode::Powered,
+        RagdollMode::HitBoxes,
+    ]
+    .into_iter()
+    .map(|mode| {
+        let intent = RagdollIntent { mode, ..default() };
+        sim.spawn((
+            Ragdoll::default(),
+            intent,
+            Transform::from_xyz(0.0, 0.2, 0.0),
+        ))
+    })
+    .collect();
+    sim.seconds(0.5);
+    for entity in all {
+        // Whoever is asked for what it cannot do is off its pose, and is drawn so.
+        let state = sim.get::<RagdollState>(entity);
+        assert!(
+            state.bones.len() == 19 && state.bones.iter().all(|b| b.place.position.is_finite())
+        );
+    }
+}

@@ -189,6 +189,17 @@ impl JointWorlds<'_, '_> {
         }
     }
 
+    /// Impulse by which a joint held its pivot in the last substep, newton-seconds.
+    pub fn load(&self, link: &RapierContextEntityLink, joint: JointHandle) -> f32 {
+        let Ok((joints, ..)) = self.contexts.get(link.0) else {
+            return 0.0;
+        };
+        let joint = joints.impulse_joints.get(joint.0);
+        joint.map_or(0.0, |j| {
+            Vec3::new(j.impulses[0], j.impulses[1], j.impulses[2]).length()
+        })
+    }
+
     /// Changes a joint in place, without waking its bodies.
     fn edit(
         &mut self,
@@ -246,6 +257,38 @@ impl JointWorlds<'_, '_> {
             let arm = body.center_of_mass() - body.position().translation;
             body.set_linvel(velocity + spin.cross(arm), true);
             body.set_angvel(spin, true);
+        }
+    }
+
+    /// Sets the velocity of a body's centre of mass, and its spin.
+    pub fn set_velocity(
+        &mut self,
+        link: &RapierContextEntityLink,
+        handle: &RapierRigidBodyHandle,
+        velocity: Vec3,
+        spin: Vec3,
+    ) {
+        if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
+            && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
+        {
+            body.set_linvel(velocity, false);
+            body.set_angvel(spin, false);
+        }
+    }
+
+    /// Gives a dynamic body an impulse at a point of the world and wakes it.
+    pub fn strike(
+        &mut self,
+        link: &RapierContextEntityLink,
+        handle: &RapierRigidBodyHandle,
+        impulse: Vec3,
+        point: Vec3,
+    ) {
+        if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
+            && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
+            && body.is_dynamic()
+        {
+            body.apply_impulse_at_point(impulse, point, true);
         }
     }
 

@@ -151,5 +151,6 @@ pub(super) fn joint(
         friction,
         max_torque,
         softness: None,
+        breaks: None,
     }
 }

@@ -11,4 +11,5 @@ mod plan;
 mod rig;
 
 pub use part::{BodyPart, HumanoidDetail};
+pub(crate) use plan::first_part;
 pub use rig::HumanoidRig;

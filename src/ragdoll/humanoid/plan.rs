@@ -62,6 +62,11 @@ fn extent(part: BodyPart, detail: HumanoidDetail) -> (BodyPart, BodyPart) {
     }
 }
 
+/// The first part that a body covers: its bone is the one that the body goes with.
+pub(crate) fn first_part(part: BodyPart, detail: HumanoidDetail) -> BodyPart {
+    extent(part, detail).0
+}
+
 fn bone(part: BodyPart, rig: &HumanoidRig, detail: HumanoidDetail) -> BoneProfile {
     let (first, last) = extent(part, detail);
     let start = rig.start(first);

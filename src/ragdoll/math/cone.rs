@@ -48,6 +48,12 @@ impl EllipticCone {
         (self.semi.x - self.semi.y).abs() <= 0.05 * self.semi.min_element()
     }
 
+    /// The point of the boundary at this angle of the ellipse, by its cosine and sine.
+    #[cfg(any(feature = "debug", test))]
+    pub fn on_boundary(&self, cos: f32, sin: f32) -> Vec2 {
+        Vec2::new(cos, sin) * self.semi
+    }
+
     /// Whether a point of the swing plane lies within.
     pub fn contains(&self, p: Vec2) -> bool {
         (p / self.semi).length_squared() <= 1.0

@@ -29,6 +29,29 @@ pub struct JointProfile {
     pub max_torque: f32,
     /// A limit that gives; `None` is hard.
     pub softness: Option<JointSoftness>,
+    /// The load under which it parts; `None` holds for ever.
+    pub breaks: Option<JointBreak>,
+}
+
+/// The load under which a joint parts.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct JointBreak {
+    /// Force on the joint, newtons, above 0. A joint bears the weight of what hangs on it already.
+    pub force: f32,
+    /// For so long without a break, seconds, at least 0. Loads are looked at at the end of each tick: a
+    /// blow that is over within it never counts.
+    pub time: f32,
+}
+
+impl Default for JointBreak {
+    fn default() -> Self {
+        Self {
+            force: 4000.0,
+            time: 0.05,
+        }
+    }
 }
 
 impl Default for JointProfile {
@@ -39,6 +62,7 @@ impl Default for JointProfile {
             friction: 2.5,
             max_torque: 200.0,
             softness: None,
+            breaks: None,
         }
     }
 }

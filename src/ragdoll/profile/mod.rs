@@ -6,7 +6,7 @@ mod shape;
 
 use bevy::prelude::*;
 
-pub use joint::{JointKind, JointProfile, JointSoftness};
+pub use joint::{JointBreak, JointKind, JointProfile, JointSoftness};
 pub use mass::BoneMass;
 pub use shape::BoneShape;
 pub(crate) use shape::{capsule_within, degrees, overlap, radius_of_volume};
@@ -16,7 +16,7 @@ pub(crate) use shape::{capsule_within, degrees, overlap, radius_of_volume};
 /// Everything is in the axes of the figure: origin on the ground between the feet, `Y` up, facing
 /// `-Z`, metres. [`RagdollProfile::humanoid`] makes one for people; animals and props are written by
 /// hand or loaded (with the feature `serialize`).
-#[derive(Reflect, Clone, Debug, Default, PartialEq)]
+#[derive(Asset, Reflect, Clone, Debug, Default, PartialEq)]
 #[reflect(Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct RagdollProfile {

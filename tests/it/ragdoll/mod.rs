@@ -1,7 +1,16 @@
-//! Ragdolls: joints and limits, modes, drive to a pose, life of bones.
+//! Ragdolls: joints and limits, modes, drive to a pose, what is shown, hits, rest, getting up, limbs cut
+//! off, skins, characters that fall, life of bones.
 
+mod blend;
+mod character;
+mod hits;
 mod hold;
+mod keyframes;
 mod life;
 mod limits;
 mod modes;
+mod rest;
+mod rise;
+mod sever;
+mod skin;
 mod support;

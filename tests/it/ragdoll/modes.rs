@@ -153,6 +153,47 @@ fn twenty_switches_in_a_row_move_no_bone_by_a_jump() {
 }
 
 #[test]
+fn a_frozen_figure_that_was_moved_comes_to_its_new_place_without_overshooting() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies15,
+            RagdollMode::HitBoxes,
+            Vec3::Y,
+        );
+        sim.ticks(3);
+        ask(&mut sim, entity, RagdollMode::Frozen);
+        sim.ticks(3);
+        edit::<Transform>(&mut sim, entity, |t| t.translation.x += 2.0);
+        sim.ticks(3);
+        let chest = bone(&sim, entity, "chest");
+        findings.near(
+            format!("{hz} Hz: frozen, m"),
+            sim.position(chest).x,
+            0.0,
+            1.0e-4,
+        );
+        ask(&mut sim, entity, RagdollMode::HitBoxes);
+        let (mut low, mut high) = (0.0f32, 0.0f32);
+        for _ in 0..(hz * 0.5) as usize {
+            sim.ticks(1);
+            low = low.min(sim.position(chest).x);
+            high = high.max(sim.position(chest).x);
+        }
+        findings.near(format!("{hz} Hz: least, m"), low, 0.0, 1.0e-3);
+        findings.near(format!("{hz} Hz: most, m"), high, 2.0, 1.0e-3);
+        findings.near(
+            format!("{hz} Hz: in the end, m"),
+            sim.position(chest).x,
+            2.0,
+            1.0e-3,
+        );
+    }
+}
+
+#[test]
 fn a_limb_that_is_simulated_leaves_the_others_to_the_pose() {
     let paths = |limb: Option<&str>| {
         let mut sim = Sim::new(60.0);

@@ -1,0 +1,117 @@
+//! The figure goes where its root is thrown, so that what hangs on its entity (camera, skeleton, capsule)
+//! is there, and what is shown never has to slide back.
+
+use bevy::{math::ops, prelude::*};
+
+use super::{
+    bone::{Bones, RagdollBone},
+    intent::BoneControl,
+    math::rotation::from_rotation_vector,
+    plan::RagdollPlan,
+    sever::is_cut,
+    state::{BoneBody, RagdollState},
+};
+
+/// On a ragdoll: while its root is simulated, its entity is moved along after each tick: to the height of
+/// its lowest bone, below the root, facing as the root does.
+///
+/// Only for ragdolls at the top level of the world; one that is pinned stays.
+#[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[reflect(Component, Default, Debug, PartialEq, Clone)]
+pub struct FollowRoot;
+
+/// Where a figure faces whose root is turned so: level, unit length. `None` when it lies on its side.
+///
+/// It is across the root's own left-to-right axis, so that it does not change as the figure falls on its
+/// face or on its back.
+pub(crate) fn heading(root: Quat, bind: Quat, up: Vec3) -> Option<Vec3> {
+    let right = root * bind.inverse() * Vec3::X;
+    let ahead = up.cross(right);
+    (ahead.length_squared() > 0.09).then(|| ahead.normalize())
+}
+
+/// The turn about Y of a figure that faces so.
+pub(crate) fn facing(ahead: Vec3) -> Quat {
+    from_rotation_vector(Vec3::Y * ops::atan2(-ahead.x, -ahead.z))
+}
+
+/// The lowest point along up of all bones that are not cut off.
+pub(crate) fn lowest(plan: &RagdollPlan, state: &RagdollState, up: Vec3) -> f32 {
+    let mut low = f32::MAX;
+    for (i, bone) in plan.bones.iter().enumerate() {
+        if is_cut(plan, state, i) {
+            continue;
+        }
+        let place = state.bones[i].place;
+        let (a, b, radius) = bone.shape.core();
+        for end in [a, b] {
+            let point = place.position + place.rotation * end;
+            low = low.min(point.dot(up) - radius);
+        }
+    }
+    low
+}
+
+/// Moves figures to their roots.
+pub(super) fn follow(
+    mut ragdolls: Query<
+        (&mut Transform, &RagdollPlan, &RagdollState, &Bones),
+        (With<FollowRoot>, Without<ChildOf>),
+    >,
+    bones: Query<&BoneControl, With<RagdollBone>>,
+) {
+    let up = Vec3::Y;
+    for (mut transform, plan, state, tied) in &mut ragdolls {
+        let (Some(planned), Some(root)) = (plan.bones.first(), state.bones.first()) else {
+            continue;
+        };
+        if root.body != BoneBody::Dynamic || state.bones.len() != plan.bones.len() {
+            continue;
+        }
+        if bones.iter_many(tied.iter()).any(|c| c.pin > 0.0) {
+            continue;
+        }
+        let place = root.place;
+        let ahead = heading(place.rotation, planned.bind.rotation, up)
+            .unwrap_or(transform.rotation * Vec3::NEG_Z);
+        let rotation = facing(ahead);
+        let low = lowest(plan, state, up);
+        let offset = rotation * planned.bind.position;
+        let translation = Vec3::new(
+            place.position.x - offset.x,
+            low,
+            place.position.z - offset.z,
+        );
+        if translation.is_finite() && rotation.is_finite() {
+            transform.set_if_neq(Transform {
+                translation,
+                rotation,
+                scale: transform.scale,
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_figure_that_falls_on_its_face_or_its_back_still_faces_the_same_way() {
+        for yaw in [0.0f32, 0.7, 2.5] {
+            let turn = Quat::from_rotation_y(yaw);
+            let ahead = turn * Vec3::NEG_Z;
+            for pitch in [-FRAC_PI_2, -0.6, 0.0, 0.9, FRAC_PI_2] {
+                let root = turn * Quat::from_rotation_x(pitch);
+                let found = heading(root, Quat::IDENTITY, Vec3::Y);
+                assert!(
+                    found.is_some_and(|f| f.distance(ahead) < 1.0e-5),
+                    "{yaw} {pitch}"
+                );
+            }
+            let side = turn * Quat::from_rotation_z(FRAC_PI_2);
+            assert_eq!(heading(side, Quat::IDENTITY, Vec3::Y), None);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Lying still: when a simulated figure counts as at rest, and freezing it then.
+
+use bevy::prelude::*;
+
+use super::{
+    bone::Bones,
+    config::Ragdoll,
+    intent::{RagdollIntent, RagdollMode},
+    plan::RagdollPlan,
+    state::{BoneBody, RagdollState},
+};
+
+/// When a simulated figure counts as lying still.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq)]
+#[reflect(Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct RagdollRest {
+    /// The whole is not faster than this, as the root of its mean square speed by mass, metres per
+    /// second, at least 0: a hand that trembles keeps nobody awake.
+    pub speed: f32,
+    /// For so long, seconds, at least 0.
+    pub time: f32,
+    /// A limp figure is frozen when it has lain still for so long, seconds; `None` never. It thaws when
+    /// it is hit or asked for another mode.
+    pub freeze_after: Option<f32>,
+}
+
+impl Default for RagdollRest {
+    fn default() -> Self {
+        Self {
+            speed: 0.1,
+            time: 0.3,
+            freeze_after: None,
+        }
+    }
+}
+
+/// It has come to rest. Triggered once, after the tick; again after it has moved.
+#[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
+#[reflect(Debug, PartialEq, Clone)]
+pub struct CameToRest {
+    /// The ragdoll.
+    pub entity: Entity,
+}
+
+/// The mode of this tick: what is asked, or frozen when that is due.
+pub(super) fn mode(intent: &RagdollIntent, state: &RagdollState, config: &Ragdoll) -> RagdollMode {
+    let due = |after: f32| state.still >= after.max(config.rest.time);
+    match intent.mode {
+        RagdollMode::Limp if config.rest.freeze_after.is_some_and(due) => RagdollMode::Frozen,
+        asked => asked,
+    }
+}
+
+/// Whether it is frozen and was already so in the last tick: then nothing is to be done.
+pub(super) fn is_settled(mode: RagdollMode, state: &RagdollState) -> bool {
+    mode == RagdollMode::Frozen
+        && state.mode == RagdollMode::Frozen
+        && state.hits.is_empty()
+        && !state.bones.is_empty()
+        && (state.bones.iter()).all(|b| b.body == BoneBody::Fixed)
+}
+
+/// Counts how long each figure has lain still.
+pub(super) fn notice(
+    time: Res<Time>,
+    mut commands: Commands,
+    mut ragdolls: Query<
+        (
+            Entity,
+            &Ragdoll,
+            &RagdollIntent,
+            &RagdollPlan,
+            &mut RagdollState,
+        ),
+        With<Bones>,
+    >,
+) {
+    let dt = time.delta_secs();
+    for (entity, config, intent, plan, mut state) in &mut ragdolls {
+        let state = state.bypass_change_detection();
+        if state.mode == RagdollMode::Frozen && intent.mode == RagdollMode::Limp {
+            continue;
+        }
+        let (mut mass, mut sum) = (0.0, 0.0);
+        for (bone, known) in plan.bones.iter().zip(&state.bones) {
+            if known.body == BoneBody::Dynamic {
+                mass += bone.mass;
+                sum += bone.mass * known.velocity.length_squared();
+            }
+        }
+        let still = mass > 0.0 && sum <= mass * config.rest.speed * config.rest.speed;
+        if !still {
+            state.still = 0.0;
+            continue;
+        }
+        let before = state.still;
+        state.still += dt;
+        if before < config.rest.time && state.still >= config.rest.time {
+            commands.trigger(CameToRest { entity });
+        }
+    }
+}

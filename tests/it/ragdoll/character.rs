@@ -1,0 +1,190 @@
+//! Characters that fall, lie, and get up.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use bevy_rapier3d::prelude::*;
+use embody_scenes::Sim;
+
+use super::support::*;
+
+fn person(sim: &mut Sim, at: Vec3, config: CharacterRagdoll) -> Entity {
+    let ragdoll = Ragdoll::new(
+        RagdollProfile::humanoid(HumanoidDetail::Bodies19, 1.75),
+        75.0,
+    );
+    let character = Character {
+        mass: 75.0,
+        ..default()
+    };
+    let intent = RagdollIntent {
+        mode: RagdollMode::HitBoxes,
+        ..default()
+    };
+    let at = Transform::from_translation(at);
+    let entity = sim.spawn((character, ragdoll, intent, config, at));
+    sim.ticks(5);
+    entity
+}
+
+fn told(sim: &mut Sim, tell: impl FnOnce(&mut Commands)) {
+    tell(&mut sim.app.world_mut().commands());
+    sim.app.world_mut().flush();
+}
+
+#[derive(Resource, Default)]
+struct Hits(Vec<Hit>);
+
+fn phase(sim: &Sim, entity: Entity) -> BodyPhase {
+    sim.get::<CharacterRagdollState>(entity).phase
+}
+
+#[test]
+fn its_own_hit_boxes_are_nothing_to_a_character() {
+    let walk = |boxes: bool| {
+        let mut sim = Sim::new(60.0);
+        sim.floor(0.0);
+        let entity = if boxes {
+            person(&mut sim, Vec3::ZERO, CharacterRagdoll::default())
+        } else {
+            let character = Character {
+                mass: 75.0,
+                ..default()
+            };
+            let entity = sim.character(character, Vec3::ZERO);
+            sim.ticks(5);
+            entity
+        };
+        sim.walk(entity, Vec3::X);
+        let mut seen = Vec::new();
+        for _ in 0..90 {
+            sim.ticks(1);
+            seen.push(sim.position(entity));
+        }
+        seen
+    };
+    let mut findings = Findings::new();
+    findings.same("ways", &walk(false), &walk(true));
+}
+
+#[test]
+fn a_runner_who_falls_takes_the_velocity_along_and_the_capsule_lies_with_the_pelvis() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        let entity = person(&mut sim, Vec3::ZERO, CharacterRagdoll::default());
+        sim.intent(entity, |i| i.sprint = true);
+        sim.walk(entity, Vec3::NEG_Z);
+        sim.seconds(1.0);
+        let velocity = sim.state(entity).world_velocity();
+        findings.at_least(format!("{hz} Hz: it runs, m/s"), velocity.length(), 3.0);
+        told(&mut sim, |c| c.become_ragdoll(entity));
+        sim.ticks(1);
+        let (momentum, mass) = momentum(&sim, entity);
+        let kept = momentum.with_y(0.0).distance(velocity * mass) / (velocity.length() * mass);
+        findings.at_most(format!("{hz} Hz: momentum lost"), kept, 0.05);
+        findings.holds("down", phase(&sim, entity) == BodyPhase::Down);
+        sim.seconds(3.0);
+        let pelvis = sim.position(bone(&sim, entity, "pelvis"));
+        let beside = (sim.position(entity) - pelvis).with_y(0.0).length();
+        findings.at_most(format!("{hz} Hz: beside the pelvis, m"), beside, 0.02);
+        findings.near(
+            format!("{hz} Hz: on the floor, m"),
+            sim.position(entity).y,
+            0.0,
+            0.02,
+        );
+        // And up again, to walk on from there.
+        let lies = sim.position(entity);
+        told(&mut sim, |c| c.recover(entity));
+        sim.walk(entity, Vec3::ZERO);
+        sim.seconds(1.0);
+        findings.holds(
+            format!("{hz} Hz: upright"),
+            phase(&sim, entity) == BodyPhase::Upright,
+        );
+        findings.holds(format!("{hz} Hz: stands"), sim.state(entity).on_ground());
+        let moved = sim.position(entity).distance(lies);
+        findings.at_most(format!("{hz} Hz: it stands where it lay, m"), moved, 0.05);
+        let head = sim.position(bone(&sim, entity, "head"));
+        findings.near(format!("{hz} Hz: head, m"), head.y, 0.875 * 1.75, 0.05);
+        sim.walk(entity, Vec3::NEG_Z);
+        sim.seconds(1.0);
+        let way = lies.z - sim.position(entity).z;
+        findings.at_least(format!("{hz} Hz: it walks on, m"), way, 1.5);
+    }
+}
+
+#[test]
+fn who_lies_under_a_low_ceiling_waits_until_there_is_room() {
+    let mut sim = Sim::new(60.0);
+    sim.floor(0.0);
+    let entity = person(&mut sim, Vec3::ZERO, CharacterRagdoll::default());
+    told(&mut sim, |c| c.become_ragdoll(entity));
+    sim.seconds(3.0);
+    let ceiling = sim.block(Vec3::new(0.0, 1.5, 0.0), Vec3::new(8.0, 0.2, 8.0));
+    sim.ticks(2);
+    told(&mut sim, |c| c.recover(entity));
+    sim.seconds(1.0);
+    let mut findings = Findings::new();
+    findings.holds("it waits", phase(&sim, entity) == BodyPhase::Waiting);
+    findings.holds(
+        "still limp",
+        sim.get::<RagdollState>(entity).mode == RagdollMode::Limp,
+    );
+    sim.app.world_mut().despawn(ceiling);
+    sim.seconds(1.0);
+    findings.holds("it stands", phase(&sim, entity) == BodyPhase::Upright);
+}
+
+#[test]
+fn a_fast_crate_throws_it_down_and_a_slow_one_or_a_wall_does_not() {
+    let mut findings = Findings::new();
+    // 20 kg against 75: 15.8 kg reduced. 50 N·s are 3.2 m/s.
+    let config = CharacterRagdoll {
+        fall_impulse: Some(50.0),
+        get_up_after: Some(0.5),
+        ..default()
+    };
+    for hz in RATES {
+        for (speed, falls) in [(2.0, false), (6.0, true)] {
+            let mut sim = Sim::new(hz);
+            sim.floor(0.0);
+            let entity = person(&mut sim, Vec3::ZERO, config);
+            let crate_ = sim.dynamic(
+                Collider::cuboid(0.3, 0.3, 0.3),
+                Transform::from_xyz(0.0, 1.0, 0.75),
+                20.0,
+            );
+            insert(&mut sim, crate_, Velocity::linear(Vec3::NEG_Z * speed));
+            sim.app.init_resource::<Hits>();
+            sim.app
+                .add_observer(|hit: On<Hit>, mut hits: ResMut<Hits>| hits.0.push(*hit));
+            let mut down = false;
+            for _ in 0..(hz * 0.5) as usize {
+                sim.ticks(1);
+                down |= phase(&sim, entity) == BodyPhase::Down;
+            }
+            let hits = &sim.app.world().resource::<Hits>().0;
+            let what = format!("{hz} Hz, {speed} m/s: falls {falls}, {hits:?}");
+            findings.holds(what, down == falls);
+            if falls {
+                let (momentum, mass) = momentum(&sim, entity);
+                let thrown = -momentum.z / mass;
+                findings.at_least(format!("{hz} Hz: thrown along, m/s"), thrown, 0.3);
+                sim.seconds(6.0);
+                let up = phase(&sim, entity) == BodyPhase::Upright;
+                findings.holds(format!("{hz} Hz: it gets up by itself"), up);
+            }
+        }
+        let mut sim = Sim::new(hz);
+        sim.floor(0.0);
+        sim.block(Vec3::new(0.0, 1.0, -3.0), Vec3::new(4.0, 2.0, 0.2));
+        let entity = person(&mut sim, Vec3::ZERO, config);
+        sim.intent(entity, |i| i.sprint = true);
+        sim.walk(entity, Vec3::NEG_Z);
+        sim.seconds(2.0);
+        let stands = phase(&sim, entity) == BodyPhase::Upright;
+        findings.holds(format!("{hz} Hz: a wall that it runs into"), stands);
+    }
+}

@@ -1,0 +1,135 @@
+//! Lying still is noticed, and frozen where that is asked.
+
+use bevy::prelude::*;
+use bevy_embody::prelude::*;
+use embody_scenes::Sim;
+
+use super::support::*;
+
+#[derive(Resource, Default)]
+struct Rests(Vec<Entity>);
+
+fn fallen(hz: f64, rest: RagdollRest) -> (Sim, Entity) {
+    let mut sim = Sim::new(hz);
+    sim.floor(0.0);
+    sim.app.init_resource::<Rests>();
+    sim.app
+        .add_observer(|rest: On<CameToRest>, mut rests: ResMut<Rests>| rests.0.push(rest.entity));
+    let ragdoll = Ragdoll {
+        rest,
+        ..Ragdoll::new(
+            RagdollProfile::humanoid(HumanoidDetail::Bodies15, 1.75),
+            75.0,
+        )
+    };
+    let entity = figure(&mut sim, ragdoll, RagdollMode::Limp, Vec3::Y * 0.2);
+    (sim, entity)
+}
+
+#[test]
+fn a_figure_that_has_fallen_is_noticed_once_and_again_after_it_was_pushed() {
+    let mut findings = Findings::new();
+    // At 30 ticks per second a limp figure of 15 bodies trembles on, faster than what counts as rest.
+    for hz in [60.0, 120.0, 240.0] {
+        let (mut sim, entity) = fallen(hz, RagdollRest::default());
+        sim.seconds(0.3);
+        let count = |sim: &Sim| sim.app.world().resource::<Rests>().0.len() as f32;
+        findings.near(format!("{hz} Hz: while it falls"), count(&sim), 0.0, 0.0);
+        sim.seconds(7.0);
+        findings.near(format!("{hz} Hz: after it"), count(&sim), 1.0, 0.0);
+        let chest = bone(&sim, entity, "chest");
+        let point = sim.position(chest);
+        sim.app
+            .world_mut()
+            .commands()
+            .hit(chest, point, Vec3::X * 80.0);
+        sim.seconds(0.2);
+        findings.near(
+            format!("{hz} Hz: still time"),
+            sim.get::<RagdollState>(entity).still,
+            0.0,
+            0.0,
+        );
+        sim.seconds(6.0);
+        findings.near(format!("{hz} Hz: again"), count(&sim), 2.0, 0.0);
+    }
+}
+
+#[test]
+fn a_baked_figure_has_no_bodies_and_lies_there_again_when_it_is_a_ragdoll_again() {
+    let (mut sim, entity) = fallen(60.0, RagdollRest::default());
+    sim.seconds(4.0);
+    let names = |sim: &Sim| -> Vec<(String, Transform)> {
+        let all = bones(sim, entity);
+        let named = |b: &Entity| (sim.get::<Name>(*b).to_string(), sim.get::<Transform>(*b));
+        all.iter().map(named).collect()
+    };
+    let lay = names(&sim);
+    let ragdoll = sim.get::<Ragdoll>(entity);
+    let bodies = |sim: &mut Sim| {
+        let mut sets = sim
+            .app
+            .world_mut()
+            .query::<&bevy_rapier3d::prelude::RapierRigidBodySet>();
+        sets.single(sim.app.world()).unwrap().bodies.len()
+    };
+    let mut findings = Findings::new();
+    findings.near("bodies before", bodies(&mut sim) as f32, 16.0, 0.0);
+    sim.app.world_mut().trigger(BakeRagdoll { entity });
+    sim.seconds(0.5);
+    findings.near("bodies baked", bodies(&mut sim) as f32, 1.0, 0.0);
+    findings.holds("no bones", bones(&sim, entity).is_empty());
+    insert(&mut sim, entity, ragdoll);
+    sim.ticks(2);
+    let now = names(&sim);
+    findings.near("bones again", now.len() as f32, lay.len() as f32, 0.0);
+    for ((name, a), (_, b)) in lay.iter().zip(&now) {
+        let off = a.translation.distance(b.translation);
+        findings.at_most(format!("{name}: off, m"), off, 5.0e-3);
+    }
+}
+
+#[test]
+fn a_figure_freezes_when_that_is_due_and_thaws_when_it_is_hit() {
+    let mut findings = Findings::new();
+    let rest = RagdollRest {
+        freeze_after: Some(1.0),
+        ..default()
+    };
+    let (mut sim, entity) = fallen(60.0, rest);
+    let mut before = 0.0;
+    for _ in 0..600 {
+        sim.ticks(1);
+        let state = sim.get::<RagdollState>(entity);
+        if state.mode == RagdollMode::Frozen {
+            break;
+        }
+        before = state.still;
+    }
+    findings.near("still before it froze, s", before, 1.0, 0.02);
+    let places = |sim: &Sim| -> Vec<Transform> {
+        let all = bones(sim, entity);
+        all.iter().map(|b| sim.get::<Transform>(*b)).collect()
+    };
+    sim.ticks(1);
+    let frozen = places(&sim);
+    sim.seconds(2.0);
+    findings.same("frozen bones", &frozen, &places(&sim));
+    findings.holds(
+        "no bone is simulated",
+        outputs(&sim, entity).iter().all(|o| !o.simulated),
+    );
+    let chest = bone(&sim, entity, "chest");
+    let point = sim.position(chest);
+    sim.app
+        .world_mut()
+        .commands()
+        .hit(chest, point, Vec3::X * 60.0);
+    sim.ticks(1);
+    let (after, mass) = momentum(&sim, entity);
+    findings.at_least("speed after the hit, m/s", after.x / mass, 0.5);
+    findings.holds(
+        "limp again",
+        sim.get::<RagdollState>(entity).mode == RagdollMode::Limp,
+    );
+}
