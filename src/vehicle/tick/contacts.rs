@@ -39,7 +39,7 @@ pub(super) fn build<'a>(
     let mut moved = [Vec3::ZERO; MOST_WHEELS];
     let mut falls = [Vec3::ZERO; MOST_WHEELS];
     let way = (rigid.velocity - state.ground_velocity).normalize_or_zero();
-    let bend = bend(found, rigid.center, way);
+    let bend = bend(s, found, rigid.center, way);
     // The step moves a body a little more by its last velocity than by its first: it is that much
     // nearer to the middle of the curve already.
     let ahead = (1.0 - s.view.end_share()) * s.dt;
@@ -197,19 +197,29 @@ impl Bend {
     }
 }
 
-/// The line of least squares through the normals under all wheels.
-fn bend(found: &[Found], center: Vec3, way: Vec3) -> Bend {
-    let touches = || found.iter().filter_map(|f| f.contact);
+/// The line of least squares through the normals under all wheels. How a loose body lies under one of
+/// them says nothing of the way to come.
+fn bend(s: &Surroundings, found: &[Found], center: Vec3, way: Vec3) -> Bend {
+    let loose = |touch: &Touch| {
+        let motion = s.view.ground_motion(touch.entity, s.dt);
+        matches!(motion, Some(GroundMotion::Free { .. }))
+    };
+    let road: ArrayVec<Touch, MOST_WHEELS> = found
+        .iter()
+        .filter_map(|f| f.contact)
+        .filter(|touch| !loose(touch))
+        .collect();
+    let touches = || road.iter();
     let share = 1.0 / touches().count().max(1) as f32;
     let place = |touch: &Touch| (touch.point - center).dot(way);
     let (mut middle, mut normal) = (0.0, Vec3::ZERO);
     for touch in touches() {
-        middle += place(&touch) * share;
+        middle += place(touch) * share;
         normal += touch.normal * share;
     }
     let (mut spread, mut rate) = (0.0, Vec3::ZERO);
     for touch in touches() {
-        let off = place(&touch) - middle;
+        let off = place(touch) - middle;
         spread += off * off;
         rate += (touch.normal - normal) * off;
     }
