@@ -84,7 +84,7 @@ fn play(
         });
     }
     let plugins = EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>();
-    let mut sim = Sim::with(hz, (plugins, CoursePlugin));
+    let mut sim = Sim::with(hz, (plugins, CoursePlugin)).in_line();
     // Only what the station is made of: a level is dear to build, and each world builds its own.
     let family = station.name.replace("side_", "hill_");
     let mut part = level.clone();

@@ -33,7 +33,7 @@ pub fn run_headless_with(course: &Course, filter: Option<&str>, hz: f64) -> Vec<
         .map(|station| {
             // Between ticks a walker is looked at, and an eased pose is not where it is.
             let plugins = EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>();
-            let mut sim = Sim::with(hz, (plugins, CoursePlugin));
+            let mut sim = Sim::with(hz, (plugins, CoursePlugin)).in_line();
             sim.app.insert_resource(course.clone());
             let spawned = sim.app.world_mut().run_system_once(
                 |mut commands: Commands, course: Res<Course>| {

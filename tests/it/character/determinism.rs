@@ -149,7 +149,7 @@ fn script(sim: &mut Sim, crowd: &[Entity], tick: usize) {
 }
 
 fn replay(hz: f64, ticks: usize, order: Order) -> Vec<u64> {
-    let mut sim = Sim::new(hz);
+    let mut sim = Sim::threaded(hz);
     let crowd = level(&mut sim, order);
     (0..ticks)
         .map(|tick| {
@@ -210,7 +210,7 @@ fn the_order_in_which_other_things_are_spawned_does_not_matter() {
 fn the_number_of_ticks_in_a_frame_does_not_matter() {
     let mut ends = Vec::new();
     for per_frame in [1u32, 2, 4] {
-        let mut sim = Sim::new(120.0);
+        let mut sim = Sim::threaded(120.0);
         let crowd = level(&mut sim, Order::default());
         sim.app
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(per_frame));
@@ -263,7 +263,7 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
             ("on a lift", Vec3::new(-20.0, 0.1, 0.3), 0.8),
             ("on a turntable", Vec3::new(-29.0, 0.1, 0.0), 0.8),
         ] {
-            let mut sim = Sim::new(hz);
+            let mut sim = Sim::threaded(hz);
             let (who, movers) = save_course(&mut sim);
             sim.place(who, foot);
             sim.seconds(0.2);
@@ -306,7 +306,7 @@ fn a_save_restored_gives_the_same_sixty_ticks_again() {
 fn a_character_is_rebuilt_from_its_saved_text() {
     let mut found = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
+        let mut sim = Sim::threaded(hz);
         let (who, _) = save_course(&mut sim);
         sim.seconds(0.2);
         sim.walk(who, Vec3::X);

@@ -46,7 +46,7 @@ fn bits(sim: &Sim, car: &Car) -> Vec<u32> {
 #[test]
 fn two_runs_are_equal_bit_for_bit() {
     let run = || {
-        let mut sim = Sim::new(60.0);
+        let mut sim = Sim::threaded(60.0);
         plane(&mut sim, Quat::IDENTITY);
         let car = plan().park(&mut sim, Quat::IDENTITY);
         for tick in 0..600 {
@@ -63,7 +63,7 @@ fn two_runs_are_equal_bit_for_bit() {
 #[test]
 fn other_cars_and_the_order_of_spawning_do_not_matter() {
     let run = |before: usize, after: usize| {
-        let mut sim = Sim::new(60.0);
+        let mut sim = Sim::threaded(60.0);
         plane(&mut sim, Quat::IDENTITY);
         let mut others = Vec::new();
         let mut other = |sim: &mut Sim, i: usize| {
@@ -94,14 +94,14 @@ fn other_cars_and_the_order_of_spawning_do_not_matter() {
 
 #[test]
 fn a_state_that_is_put_back_goes_on_as_it_did() {
-    let mut sim = Sim::new(60.0);
+    let mut sim = Sim::threaded(60.0);
     plane(&mut sim, Quat::IDENTITY);
     put_back(&mut sim, |_, _| {});
 }
 
 #[test]
 fn a_state_with_every_helper_that_is_put_back_mid_drift_goes_on_as_it_did() {
-    let mut sim = Sim::new(60.0);
+    let mut sim = Sim::threaded(60.0);
     plane(&mut sim, Quat::IDENTITY);
     put_back(&mut sim, |sim, car| {
         insert(
@@ -161,7 +161,7 @@ fn a_new_state_is_equal_to_itself() {
 fn a_lap_takes_as_long_and_ends_where_it_does_at_every_tick_rate() {
     let mut found = Findings::new();
     let run = |hz: f64| {
-        let mut sim = Sim::new(hz);
+        let mut sim = Sim::threaded(hz);
         plane(&mut sim, Quat::IDENTITY);
         let mut plan = Plan::reference().direct(400.0, |i| i >= 2);
         plan.vehicle.steering.max_angle = 0.1;
