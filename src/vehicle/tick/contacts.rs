@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use bevy::{math::ops, prelude::*};
 
-use super::{Found, Surroundings, sense::Touch};
+use super::{Found, Surroundings, bend::Bend, sense::Touch};
 use crate::{
     backend::{
         hold::Hold,
@@ -38,8 +38,7 @@ pub(super) fn build<'a>(
     let own_mass = rigid.mass;
     let mut moved = [Vec3::ZERO; MOST_WHEELS];
     let mut falls = [Vec3::ZERO; MOST_WHEELS];
-    let way = (rigid.velocity - state.ground_velocity).normalize_or_zero();
-    let bend = bend(s, found, rigid.center, way);
+    let bend = bend(s, found, rigid.velocity - state.ground_velocity);
     // The step moves a body a little more by its last velocity than by its first: it is that much
     // nearer to the middle of the curve already.
     let ahead = (1.0 - s.view.end_share()) * s.dt;
@@ -74,10 +73,10 @@ pub(super) fn build<'a>(
         if !ground_start.is_finite() || !ground_end.is_finite() {
             continue;
         }
-        // On a curve the normal of the start leans forward against that of the way to come: its force
-        // would drive the vehicle.
-        let turned = bend.turn((own_velocity - ground_start) * ahead);
-        touch.normal = (touch.normal + turned).normalize_or(touch.normal);
+        if !matches!(motion, GroundMotion::Free { .. }) {
+            let turned = bend.turn((own_velocity - ground_start) * ahead);
+            touch.normal = (touch.normal + turned).normalize_or(touch.normal);
+        }
         let same_ground = last.ground == Some(touch.entity);
         let ground = match motion {
             GroundMotion::Free { body, rigid } if !rigid.sleeping => {
@@ -183,53 +182,19 @@ pub(super) fn build<'a>(
     join_bars(s, config, found, contacts);
 }
 
-/// How the ground bends along a vehicle's way.
-struct Bend {
-    way: Vec3,
-    /// Change of the normal, 1/m.
-    rate: Vec3,
-}
-
-impl Bend {
-    /// By how much the normal turns while a wheel goes this far.
-    fn turn(&self, path: Vec3) -> Vec3 {
-        self.rate * path.dot(self.way)
-    }
-}
-
-/// The line of least squares through the normals under all wheels. How a loose body lies under one of
-/// them says nothing of the way to come.
-fn bend(s: &Surroundings, found: &[Found], center: Vec3, way: Vec3) -> Bend {
+/// How the road bends. How a loose body lies under a wheel says nothing of the way to come.
+fn bend(s: &Surroundings, found: &[Found], velocity: Vec3) -> Bend {
     let loose = |touch: &Touch| {
         let motion = s.view.ground_motion(touch.entity, s.dt);
         matches!(motion, Some(GroundMotion::Free { .. }))
     };
-    let road: ArrayVec<Touch, MOST_WHEELS> = found
+    let road: ArrayVec<(Vec3, Vec3), MOST_WHEELS> = found
         .iter()
         .filter_map(|f| f.contact)
         .filter(|touch| !loose(touch))
+        .map(|touch| (touch.point, touch.normal))
         .collect();
-    let touches = || road.iter();
-    let share = 1.0 / touches().count().max(1) as f32;
-    let place = |touch: &Touch| (touch.point - center).dot(way);
-    let (mut middle, mut normal) = (0.0, Vec3::ZERO);
-    for touch in touches() {
-        middle += place(touch) * share;
-        normal += touch.normal * share;
-    }
-    let (mut spread, mut rate) = (0.0, Vec3::ZERO);
-    for touch in touches() {
-        let off = place(touch) - middle;
-        spread += off * off;
-        rate += (touch.normal - normal) * off;
-    }
-    // Wheels of one axle tell nothing.
-    let rate = if spread > 0.01 {
-        rate / spread
-    } else {
-        Vec3::ZERO
-    };
-    Bend { way, rate }
+    Bend::of(&road, velocity)
 }
 
 /// A body under a wheel as far as it gives way: along what holds it, it does not.

@@ -130,6 +130,10 @@ fn drive(
 
     let mut throttle = asked.throttle;
     let mut ratio = gearbox.ratio(&drivetrain.gearbox) * drivetrain.final_drive;
+    if gearbox.gear < 0 && matches!(drivetrain.source, PowerSource::Motor(_)) {
+        // The motor itself turns backward; the gear stays the first one.
+        ratio = drivetrain.gearbox.forward.first().copied().unwrap_or(1.0) * drivetrain.final_drive;
+    }
     match s.assists.traction {
         Some(control) if throttle > 0.0 => {
             let load = load(s, drivetrain, state, found, ratio, reference, weight);
@@ -162,12 +166,7 @@ fn drive(
             return;
         }
         PowerSource::Motor(motor) => {
-            // The motor itself turns backward; the gear stays the first one.
             let direction = f32::from(gearbox.gear.signum());
-            if gearbox.gear < 0 {
-                ratio = drivetrain.gearbox.forward.first().copied().unwrap_or(1.0)
-                    * drivetrain.final_drive;
-            }
             if !state.started {
                 state.started = true;
                 state.engine_speed = mean * ratio;

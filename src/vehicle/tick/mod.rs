@@ -1,5 +1,6 @@
 //! One vehicle in one tick: look, solve, remember.
 
+mod bend;
 mod brakes;
 mod contacts;
 mod driveline;

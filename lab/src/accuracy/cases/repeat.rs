@@ -43,7 +43,7 @@ pub const CASES: &[Case] = &[
         "time to 100 km/h, of that at 240 Hz",
         "",
         1.0,
-        0.03,
+        0.02,
         |s| of_finest(s, sprint),
     )),
     slow(case(
@@ -51,7 +51,7 @@ pub const CASES: &[Case] = &[
         "way to stop from 100 km/h, of that at 240 Hz",
         "",
         1.0,
-        0.03,
+        0.02,
         |s| of_finest(s, stop),
     )),
     slow(case(
