@@ -1,4 +1,4 @@
-//! Engine, gears, differentials. Rapier's controller has none of them.
+//! Engine and gears. Rapier's controller has neither.
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
@@ -34,87 +34,6 @@ pub const CASES: &[Case] = &[
         5.1325,
         0.01,
         effective_mass,
-    )),
-    alone(case(
-        "vehicle A16",
-        "open differential on ice and asphalt: torque right by left",
-        "",
-        1.0,
-        0.01,
-        |s| {
-            of_split(s, Differential::Open, 400.0, |wheels, _| {
-                ratio(wheels[3].drive_torque, wheels[2].drive_torque)
-            })
-        },
-    )),
-    alone(case(
-        "vehicle A16",
-        "open differential: force on ice, of µ N",
-        "",
-        1.0,
-        0.01,
-        |s| {
-            of_split(s, Differential::Open, 400.0, |wheels, _| {
-                ratio(wheels[2].force.x, 0.1 * wheels[2].load)
-            })
-        },
-    )),
-    alone(case(
-        "vehicle A16",
-        "open differential: input speed by the mean of its wheels",
-        "",
-        1.0,
-        0.001,
-        |s| {
-            of_split(s, Differential::Open, 400.0, |wheels, shaft| {
-                ratio(shaft, 0.5 * (wheels[2].spin + wheels[3].spin))
-            })
-        },
-    )),
-    alone(case(
-        "vehicle A16",
-        "torque bias 3: torque right by left",
-        "",
-        3.0,
-        0.01,
-        |s| {
-            of_split(s, BIAS, 600.0, |wheels, _| {
-                ratio(wheels[3].drive_torque, wheels[2].drive_torque)
-            })
-        },
-    )),
-    alone(case(
-        "vehicle A16",
-        "locked differential: speed right by left",
-        "",
-        1.0,
-        0.001,
-        |s| {
-            of_split(s, Differential::Locked, 3000.0, |wheels, _| {
-                ratio(wheels[3].spin, wheels[2].spin)
-            })
-        },
-    )),
-    alone(case(
-        "vehicle A16",
-        "locked differential: both forces, of µ N of both",
-        "",
-        1.0,
-        0.01,
-        |s| {
-            of_split(s, Differential::Locked, 3000.0, |wheels, _| {
-                let limit = 0.1 * wheels[2].load + wheels[3].load;
-                ratio(wheels[2].force.x + wheels[3].force.x, limit)
-            })
-        },
-    )),
-    alone(case(
-        "vehicle A16",
-        "torque of the front axle of a centre differential of 0.3 to 0.7",
-        "",
-        0.3,
-        0.01,
-        |s| front_share(s, 0.3),
     )),
     alone(case(
         "vehicle A17",
@@ -162,22 +81,18 @@ pub const CASES: &[Case] = &[
     )),
 ];
 
-const BIAS: Differential = Differential::LimitedSlip {
-    bias: 3.0,
-    preload: 0.0,
-};
 /// Radius of the wheels, metres.
 const RADIUS: f32 = 0.34;
 /// Gear and final drive.
 const RATIO: f32 = 2.66 * 3.42;
 
-fn ratio(a: f32, b: f32) -> f64 {
+pub fn ratio(a: f32, b: f32) -> f64 {
     f64::from(a) / f64::from(b)
 }
 
 /// 448 N·m at every speed, gear 2.66, final drive 3.42, efficiency 0.7, wheels of 0.34 m; an engine of
 /// this inertia (kg·m²).
-fn corvette(inertia: f32) -> Plan {
+pub fn corvette(inertia: f32) -> Plan {
     let mut plan = Plan::reference().wheel(|i, wheel| {
         wheel.driven = i >= 2;
         wheel.radius = RADIUS;
@@ -215,7 +130,7 @@ fn corvette(inertia: f32) -> Plan {
 }
 
 /// A plan's car on a plane.
-fn parked(mut s: Stage, plan: &Plan) -> Option<(Stage, Car)> {
+pub fn parked(mut s: Stage, plan: &Plan) -> Option<(Stage, Car)> {
     plane(&mut s.sim, Quat::IDENTITY);
     s.spawn(plan, 0.0, Transform::from_xyz(0.0, HEIGHT, 500.0));
     s.sim.seconds(1.0);
@@ -224,7 +139,7 @@ fn parked(mut s: Stage, plan: &Plan) -> Option<(Stage, Car)> {
 }
 
 /// Rolls at this speed in first gear, its engine turning along.
-fn set_rolling(s: &mut Stage, car: &Car, speed: f32) {
+pub fn set_rolling(s: &mut Stage, car: &Car, speed: f32) {
     s.push(Vec3::NEG_Z * speed);
     let world = s.sim.app.world_mut();
     if let Some(mut state) = world.get_mut::<VehicleState>(car.body) {
@@ -262,71 +177,6 @@ fn effective_mass(s: Stage) -> f64 {
     let (v0, span) = (s.speed(), 0.7);
     s.sim.seconds(span);
     (s.speed() - v0) / span
-}
-
-/// A car with this differential between its rear wheels, ice to the left and asphalt to the right,
-/// after a second of such a torque; `read` is given its wheels and the speed of the input shaft.
-fn of_split(
-    mut s: Stage,
-    differential: Differential,
-    torque: f32,
-    read: fn(&[WheelState], f32) -> f64,
-) -> f64 {
-    for (x, friction) in [(-50.0, 0.1), (50.0, 1.0)] {
-        let size = Vec3::new(100.0, 1.0, 400.0);
-        let slab = s.sim.block(Vec3::new(x, -0.5, 0.0), size);
-        let mut slab = s.sim.app.world_mut().entity_mut(slab);
-        slab.insert(SurfaceFriction::new(friction));
-    }
-    let mut plan = Plan::reference().wheel(|i, wheel| wheel.driven = i >= 2);
-    plan.vehicle.drivetrain = Some(Drivetrain {
-        source: PowerSource::Motor(ElectricMotor {
-            torque,
-            power: 1.0e9,
-            redline: 1.0e6,
-            inertia: 1.0e-3,
-            recuperation: 0.0,
-        }),
-        gearbox: Gearbox {
-            forward: vec![1.0],
-            ..default()
-        },
-        final_drive: 1.0,
-        efficiency: 1.0,
-        axles: vec![axle(1, 1.0, differential)],
-        ..default()
-    });
-    s.spawn(&plan, 0.0, Transform::from_xyz(0.0, HEIGHT, 100.0));
-    s.sim.seconds(1.0);
-    s.ask(1.0, 0.0, 0.0);
-    s.sim.seconds(1.0);
-    let Some(car) = s.own() else { return f64::NAN };
-    read(&car.all(&s.sim), car.state(&s.sim).engine_speed)
-}
-
-fn axle(axle: u8, share: f32, differential: Differential) -> DrivenAxle {
-    DrivenAxle {
-        axle,
-        share,
-        differential,
-    }
-}
-
-fn front_share(s: Stage, front: f32) -> f64 {
-    let mut plan = corvette(0.1).wheel(|_, wheel| wheel.driven = true);
-    if let Some(drivetrain) = &mut plan.vehicle.drivetrain {
-        let open = Differential::Open;
-        drivetrain.axles = vec![axle(0, front, open), axle(1, 1.0 - front, open)];
-    }
-    let Some((mut s, car)) = parked(s, &plan) else {
-        return f64::NAN;
-    };
-    set_rolling(&mut s, &car, 8.0);
-    s.ask(0.5, 0.0, 0.0);
-    s.sim.seconds(0.5);
-    let wheels = car.all(&s.sim);
-    let of = |wheels: &[WheelState]| wheels.iter().map(|w| w.drive_torque).sum::<f32>();
-    ratio(of(&wheels[..2]), of(&wheels))
 }
 
 fn first_gear(s: Stage) -> f64 {

@@ -3,6 +3,7 @@
 //! in the list of its file.
 
 mod brakes;
+mod differentials;
 mod drive;
 mod extremes;
 mod gears;
@@ -25,6 +26,7 @@ const LISTS: &[&[Case]] = &[
     turning::CASES,
     tires::CASES,
     gears::CASES,
+    differentials::CASES,
     ground::CASES,
     obstacles::CASES,
     repeat::CASES,
