@@ -74,6 +74,9 @@ pub(super) fn tie(
             let Ok((bone, link, handle, mut ties)) = bones.get_mut(entity) else {
                 continue;
             };
+            if bone.order >= handles.len() {
+                continue;
+            }
             worlds.need_iterations(link, usize::from(config.iterations.max(1)));
             let parent = plan.bones[bone.order].parent.and_then(|p| handles[p]);
             if let Some((_, parent)) = parent {
@@ -182,6 +185,9 @@ pub(super) fn drive(
             let Ok(((is, link, handle, _), control, joint, source)) = bones.get(bone) else {
                 continue;
             };
+            if is.order >= count {
+                continue;
+            }
             let Some(motion) = worlds.motion(link, handle) else {
                 continue;
             };
@@ -233,6 +239,9 @@ pub(super) fn drive(
         if state.mode == mode {
             state.bypass_change_detection().age += dt;
         } else {
+            if mode != RagdollMode::Frozen {
+                state.still = 0.0;
+            }
             state.mode = mode;
             state.age = 0.0;
         }

@@ -4,8 +4,6 @@
 use bevy::{math::ops, prelude::*};
 
 use super::{
-    bone::{Bones, RagdollBone},
-    intent::BoneControl,
     math::rotation::from_rotation_vector,
     plan::RagdollPlan,
     sever::is_cut,
@@ -55,20 +53,20 @@ pub(crate) fn lowest(plan: &RagdollPlan, state: &RagdollState, up: Vec3) -> f32 
 /// Moves figures to their roots.
 pub(super) fn follow(
     mut ragdolls: Query<
-        (&mut Transform, &RagdollPlan, &RagdollState, &Bones),
+        (&mut Transform, &RagdollPlan, &RagdollState),
         (With<FollowRoot>, Without<ChildOf>),
     >,
-    bones: Query<&BoneControl, With<RagdollBone>>,
 ) {
     let up = Vec3::Y;
-    for (mut transform, plan, state, tied) in &mut ragdolls {
+    for (mut transform, plan, state) in &mut ragdolls {
         let (Some(planned), Some(root)) = (plan.bones.first(), state.bones.first()) else {
             continue;
         };
         if root.body != BoneBody::Dynamic || state.bones.len() != plan.bones.len() {
             continue;
         }
-        if bones.iter_many(tied.iter()).any(|c| c.pin > 0.0) {
+        // A pin that is asked for holds only while the figure is driven.
+        if state.bones.iter().any(|bone| bone.pin > 0.0) {
             continue;
         }
         let place = root.place;

@@ -39,14 +39,18 @@ pub(super) fn observe(
         motions.clear();
         motions.resize(count, None);
         for (bone, link, handle, _) in bones.iter_many(tied.iter()) {
-            motions[bone.order] = worlds.motion(link, handle);
+            if let Some(motion) = motions.get_mut(bone.order) {
+                *motion = worlds.motion(link, handle);
+            }
         }
         for entity in tied.iter() {
             let Ok((bone, _, _, mut output)) = bones.get_mut(entity) else {
                 continue;
             };
             let i = bone.order;
-            let Some(motion) = motions[i] else { continue };
+            let Some(motion) = motions.get(i).copied().flatten() else {
+                continue;
+            };
             let known = &state.bones[i];
             if known.body == BoneBody::Off {
                 continue;

@@ -45,7 +45,11 @@ pub struct CameToRest {
 
 /// The mode of this tick: what is asked, or frozen when that is due.
 pub(super) fn mode(intent: &RagdollIntent, state: &RagdollState, config: &Ragdoll) -> RagdollMode {
-    let due = |after: f32| state.still >= after.max(config.rest.time);
+    let due = |after: f32| {
+        // One that stood still, held by its drive, has not lain yet.
+        let lies = matches!(state.mode, RagdollMode::Limp | RagdollMode::Frozen);
+        lies && state.still >= after.max(config.rest.time)
+    };
     match intent.mode {
         RagdollMode::Limp if config.rest.freeze_after.is_some_and(due) => RagdollMode::Frozen,
         asked => asked,

@@ -124,7 +124,7 @@ pub(super) fn part(
                 continue;
             };
             let (i, link, handle) = (bone.order, *link, *handle);
-            let Some(p) = plan.bones[i].parent else {
+            let Some(p) = plan.bones.get(i).and_then(|bone| bone.parent) else {
                 continue;
             };
             let severed = state.bones[i].severed;

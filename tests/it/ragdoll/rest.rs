@@ -56,6 +56,34 @@ fn a_figure_that_has_fallen_is_noticed_once_and_again_after_it_was_pushed() {
 }
 
 #[test]
+fn a_figure_that_stood_still_falls_as_if_it_would_never_freeze() {
+    let mut findings = Findings::new();
+    let run = |freeze_after: Option<f32>| {
+        let mut sim = Sim::new(60.0);
+        sim.floor(0.0);
+        let mut ragdoll = Ragdoll::new(
+            RagdollProfile::humanoid(HumanoidDetail::Bodies15, 1.75),
+            75.0,
+        );
+        ragdoll.rest.freeze_after = freeze_after;
+        let entity = figure(&mut sim, ragdoll, RagdollMode::Powered, Vec3::Y * 0.02);
+        sim.ticks(2);
+        let pelvis = bone(&sim, entity, "pelvis");
+        edit::<BoneControl>(&mut sim, pelvis, |c| c.pin = 1.0);
+        sim.seconds(3.0);
+        let stood = sim.position(pelvis).y;
+        ask(&mut sim, entity, RagdollMode::Limp);
+        sim.seconds(0.4);
+        let mode = sim.get::<RagdollState>(entity).mode;
+        (stood - sim.position(pelvis).y, mode)
+    };
+    let (free, (fell, mode)) = (run(None), run(Some(0.5)));
+    findings.holds(format!("{mode:?}"), mode == RagdollMode::Limp);
+    findings.at_least("it falls, m", free.0, 0.02);
+    findings.near("as the other, m", fell, free.0, 0.0);
+}
+
+#[test]
 fn a_baked_figure_has_no_bodies_and_lies_there_again_when_it_is_a_ragdoll_again() {
     let (mut sim, entity) = fallen(60.0, RagdollRest::default());
     sim.seconds(4.0);
