@@ -6,12 +6,7 @@ use std::{
     cell::Cell,
 };
 
-use bevy::{
-    app::TaskPoolOptions,
-    ecs::schedule::{Schedules, SingleThreadedExecutor},
-    math::ops,
-    prelude::*,
-};
+use bevy::{app::TaskPoolOptions, math::ops, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::{Patch, Sim, reference::*};
@@ -82,11 +77,7 @@ fn counted_sim() -> Sim {
             end.after(React),
         ),
     );
-    let mut schedules = sim.app.world_mut().resource_mut::<Schedules>();
-    for (_, schedule) in schedules.iter_mut() {
-        schedule.set_executor(SingleThreadedExecutor::new());
-    }
-    sim
+    sim.in_line()
 }
 
 /// Bodies around the wheels: such as probes begin in, end on and pass by.

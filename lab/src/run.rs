@@ -2,11 +2,7 @@
 
 use std::{collections::BTreeMap, time::Instant};
 
-use bevy::{
-    app::TaskPoolOptions,
-    ecs::schedule::{Schedules, SingleThreadedExecutor},
-    prelude::*,
-};
+use bevy::{app::TaskPoolOptions, prelude::*};
 use bevy_embody::EmbodyCorePlugin;
 use clap::Args;
 use embody_scenes::{Sim, terrain::StableId};
@@ -125,7 +121,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
     let mut sim = Sim::with(60.0, (EmbodyCorePlugin, plugin));
     (scene.build)(&mut sim, side, options.count);
     if options.threads == 1 {
-        run_alone(&mut sim.app);
+        sim = sim.in_line();
     }
     sim.ticks(options.warm_up.unwrap_or(scene.warm_up));
     let mut measured = Measured {
@@ -169,14 +165,6 @@ fn create_pools(threads: usize) {
     options.compute.min_threads = threads;
     options.compute.max_threads = threads;
     options.create_default_pools();
-}
-
-/// Runs the systems of every schedule one after another on the calling thread.
-fn run_alone(app: &mut App) {
-    let mut schedules = app.world_mut().resource_mut::<Schedules>();
-    for (_, schedule) in schedules.iter_mut() {
-        schedule.set_executor(SingleThreadedExecutor::new());
-    }
 }
 
 /// How far everyone got.

@@ -47,8 +47,8 @@ impl Sim {
         Self { app, hz }
     }
 
-    /// Runs one system after the other. In a small world the executor with threads spends three quarters
-    /// of the time on handing over between systems; what comes out is the same.
+    /// Runs one system after the other. In a small world the executor with threads spends most of
+    /// the time on handing over between systems; what comes out is the same.
     pub fn in_line(mut self) -> Self {
         let mut schedules = self.app.world_mut().resource_mut::<Schedules>();
         for (_, schedule) in schedules.iter_mut() {

@@ -30,7 +30,8 @@ impl Default for AntiLockBrakes {
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct TractionControl {
-    /// Slip ratio that is held, above 0. Small is tame and slow, large lets the wheels spin.
+    /// Slip ratio that is held, above 0; below 3 m/s the slip velocity over 3 m/s. Small is tame and slow,
+    /// large lets the wheels spin. On a hill the engine is left what keeps the vehicle from rolling back.
     pub slip: f32,
 }
 

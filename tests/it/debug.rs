@@ -21,9 +21,9 @@ fn embody() -> impl PluginGroup {
     EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>()
 }
 
-#[test]
-fn every_shape_is_drawn_around_its_body_and_no_line_is_lost() {
-    let mut sim = Sim::with(
+/// An app in which this plugin draws.
+fn drawn(plugin: impl Plugin) -> Sim {
+    Sim::with(
         60.0,
         (
             AssetPlugin::default(),
@@ -34,9 +34,14 @@ fn every_shape_is_drawn_around_its_body_and_no_line_is_lost() {
             },
             GizmoPlugin,
             embody(),
-            EmbodyDebugPlugin,
+            plugin,
         ),
-    );
+    )
+}
+
+#[test]
+fn every_shape_is_drawn_around_its_body_and_no_line_is_lost() {
+    let mut sim = drawn(EmbodyDebugPlugin);
     sim.floor(0.0);
     sim.block(Vec3::new(0.0, 1.0, 2.0), Vec3::new(60.0, 2.0, 1.0));
     // The lowest point of this hull is not at its origin.
@@ -193,19 +198,7 @@ struct Texts(Vec<String>);
 
 #[test]
 fn a_ragdoll_in_any_mode_is_drawn() {
-    let mut sim = Sim::with(
-        60.0,
-        (
-            AssetPlugin::default(),
-            |app: &mut App| {
-                app.init_asset::<Mesh>()
-                    .init_asset::<SkinnedMeshInverseBindposes>();
-            },
-            GizmoPlugin,
-            embody(),
-            bevy_embody::RagdollDebugPlugin,
-        ),
-    );
+    let mut sim = drawn(bevy_embody::RagdollDebugPlugin);
     sim.floor(0.0);
     let all: Vec<Entity> = [
         RagdollMode::Limp,
