@@ -1,6 +1,6 @@
 //! When things happen in a tick, and the set-up of a fixed-step physics world.
 
-use bevy::{app::AnimationSystems, prelude::*};
+use bevy::{app::AnimationSystems, ecs::schedule::SingleThreadedExecutor, prelude::*};
 use bevy_rapier3d::prelude::PhysicsSet;
 
 use crate::backend::{checks, setup, teleport};
@@ -35,6 +35,12 @@ pub enum EmbodySystems {
 /// also when it changes at run time; Rapier's
 /// [`TimestepMode`](bevy_rapier3d::prelude::TimestepMode) is only asked for its substeps.
 /// Settings that cannot work are reported once, see [`EmbodyDiagnosis`](crate::EmbodyDiagnosis).
+///
+/// `FixedPostUpdate` runs its systems in line: physics makes nearly all of them wait for each other,
+/// and an executor with threads would only hand them over, at some 20 microseconds each. Work inside
+/// a system is shared among threads all the same. A game with systems there that gain by it gives the
+/// schedule Bevy's [`MultiThreadedExecutor`](bevy::ecs::schedule::MultiThreadedExecutor) again, after
+/// adding this plugin, by [`Schedule::set_executor`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EmbodyCorePlugin;
 
@@ -44,6 +50,10 @@ impl Plugin for EmbodyCorePlugin {
         setup::add_clock(app);
         teleport::add_teleports(app);
         app.register_type::<crate::Teleported>();
+        // Here and not when the app is finished, so that whoever wants another sets it afterwards.
+        app.edit_schedule(FixedPostUpdate, |schedule| {
+            schedule.set_executor(SingleThreadedExecutor::new());
+        });
         app.configure_sets(
             FixedPostUpdate,
             (

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use bevy::{
     app::Plugins,
-    ecs::schedule::{Schedules, SingleThreadedExecutor},
+    ecs::schedule::{MultiThreadedExecutor, Schedules, SingleThreadedExecutor},
     prelude::*,
     time::TimeUpdateStrategy,
 };
@@ -27,10 +27,15 @@ impl Sim {
         Self::threaded(hz).in_line()
     }
 
-    /// The same with systems run by Bevy's own executor, on threads where the build has them.
+    /// The same with systems of every schedule run by Bevy's own executor, on threads where the build
+    /// has them.
     pub fn threaded(hz: f64) -> Self {
         let plugins = EmbodyPlugins.build().disable::<EmbodyInterpolationPlugin>();
-        Self::with(hz, plugins)
+        let mut sim = Self::with(hz, plugins);
+        sim.app.edit_schedule(FixedPostUpdate, |schedule| {
+            schedule.set_executor(MultiThreadedExecutor::new());
+        });
+        sim
     }
 
     /// An empty world with these plugins beside Bevy's minimal ones.

@@ -51,6 +51,8 @@ pub struct Results {
     sides: Vec<Vec<World>>,
     /// Ours in each size.
     crowds: Vec<World>,
+    /// Ours in the middle size on two threads.
+    shared: World,
     /// Ours in the subject's other scenes.
     variants: Vec<World>,
 }
@@ -67,6 +69,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     judge_sides(subject, &results.sides, &mut checks);
     judge_state(subject, &results.sides, &mut checks);
     judge_crowds(subject, &results.crowds, &mut checks);
+    judge_shared(subject, &results, &mut checks);
     for (variant, world) in subject.variants.iter().zip(&results.variants) {
         let us = world.work();
         let digits = if us < 1.0 { 3 } else { 1 };
@@ -89,6 +92,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
             .iter()
             .flatten()
             .chain(&results.crowds)
+            .chain([&results.shared])
             .chain(&results.variants)
             .collect();
         output::write_out(folder, &worlds, &checks)
@@ -145,9 +149,13 @@ fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Resul
         .iter()
         .map(|size| World::new(subject.name, Side::Ours, 1, *size, steps(100)))
         .collect();
+    let shared = World::new(subject.name, Side::Ours, 2, size(SIZES[1]), steps(100));
+    // Beside the one that it is compared with.
+    crowds.insert(1, shared);
     turns.measure(&mut crowds, |world| {
         repeats.min(3).min((LARGEST / world.options.count) as usize)
     })?;
+    let shared = crowds.remove(1);
     let mut variants: Vec<World> = subject
         .variants
         .iter()
@@ -160,6 +168,7 @@ fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Resul
     Ok(Results {
         sides,
         crowds,
+        shared,
         variants,
     })
 }
@@ -216,6 +225,27 @@ fn speed_ups<'a>(
     compared
         .zip(pairs)
         .map(|(c, (one, two))| (c, one.wall() / two.wall()))
+}
+
+/// By what factor the second thread makes the crowd of the middle size faster.
+fn shared_speed_up(results: &Results) -> Option<f64> {
+    let alone = results.crowds.get(1)?;
+    (alone.options.count == results.shared.options.count)
+        .then(|| alone.wall() / results.shared.wall())
+}
+
+fn judge_shared(subject: &Subject, results: &Results, checks: &mut Vec<Check>) {
+    let Some(speed_up) = shared_speed_up(results) else {
+        return;
+    };
+    let n = results.shared.options.count;
+    println!(
+        "scale {} n={n} threads=2 speedup={speed_up:.2}x",
+        subject.name
+    );
+    let what = format!("speed-up of {n} by two threads");
+    let least = subject.bounds.speed_up;
+    checks.push(Check::timing(what, speed_up, Must::BeAtLeast, least));
 }
 
 /// What a line of results is about.

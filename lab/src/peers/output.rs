@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use serde::Serialize;
 
-use super::{Results, World, speed_ups};
+use super::{Results, World, shared_speed_up, speed_ups};
 use crate::{bounds::Check, side::Side, subject::Subject};
 
 /// One line of results.
@@ -104,7 +104,7 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
     let Some((rapier, [ours, ..])) = results.sides.first().and_then(|w| w.split_last()) else {
         return table;
     };
-    let speed_ups: Vec<String> = speed_ups(subject, &results.sides)
+    let mut speed_ups: Vec<String> = speed_ups(subject, &results.sides)
         .map(|(compared, factor)| {
             if compared.label.is_empty() {
                 format!("{factor:.2}")
@@ -113,6 +113,12 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
             }
         })
         .collect();
+    let crowd = results.shared.options.count;
+    if crowd != subject.count
+        && let Some(factor) = shared_speed_up(results)
+    {
+        speed_ups.push(format!("{factor:.2} ({crowd} of them)"));
+    }
     table += &format!(
         "\nThere are {} {}. A second thread makes them faster by {}. Heap allocations per tick after warm-up: {}. The state after {} ticks is the same, bit for bit,\n\
          on one thread and two. {}\n\

@@ -1,6 +1,15 @@
 //! The set-up works whoever adds Rapier, and tells what is wrong.
 
-use bevy::{app::PluginGroupBuilder, ecs::system::SystemParam, prelude::*};
+use std::{
+    collections::BTreeSet,
+    sync::{Arc, Mutex},
+};
+
+use bevy::{
+    app::PluginGroupBuilder,
+    ecs::{schedule::MultiThreadedExecutor, system::SystemParam},
+    prelude::*,
+};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::Sim;
@@ -358,4 +367,41 @@ fn each_problem_says_what_to_do() {
     for (text, cure) in texts.iter().zip(cures) {
         assert!(text.contains(cure), "{text}");
     }
+}
+
+/// The threads on which two systems of `FixedPostUpdate` that need nothing from each other run, over
+/// many ticks.
+fn threads(sim: &mut Sim) -> BTreeSet<String> {
+    #[derive(Resource, Default)]
+    struct Seen(Arc<Mutex<BTreeSet<String>>>);
+    fn look(seen: Res<Seen>) {
+        let me = format!("{:?}", std::thread::current().id());
+        std::thread::sleep(core::time::Duration::from_micros(200));
+        seen.0.lock().expect("no poison").insert(me);
+    }
+    let app = &mut sim.app;
+    app.init_resource::<Seen>()
+        .add_systems(FixedPostUpdate, (look, look, look, look));
+    sim.ticks(20);
+    let seen = sim.app.world().resource::<Seen>().0.clone();
+    let seen = seen.lock().expect("no poison");
+    seen.clone()
+}
+
+#[test]
+fn systems_of_a_tick_run_in_line_unless_the_game_wants_threads() {
+    let mut in_line = sim(|app| {
+        app.add_plugins(embody());
+    });
+    let me = format!("{:?}", std::thread::current().id());
+    assert_eq!(threads(&mut in_line), BTreeSet::from([me]));
+    let mut threaded = sim(|app| {
+        app.add_plugins(embody());
+        app.edit_schedule(FixedPostUpdate, |schedule| {
+            schedule.set_executor(MultiThreadedExecutor::new());
+        });
+    });
+    let by = threads(&mut threaded);
+    let pool = bevy::tasks::ComputeTaskPool::get().thread_num();
+    assert!(pool < 2 || by.len() > 1, "{by:?} of {pool}");
 }
