@@ -139,7 +139,8 @@ impl Ground {
         let around = area.in_world();
         memory.begin();
         let pieces = &mut self.pieces;
-        for (collider, own_body) in view.colliders_in(|node| around.meets_node(node), own) {
+        let near = |node: &_| around.meets_node(node);
+        for (handle, collider, own_body) in view.colliders_in(near, own) {
             if own_body || collider.is_sensor() || !collider.collision_groups().test(groups) {
                 continue;
             }
@@ -157,7 +158,7 @@ impl Ground {
                 }
             };
             match shape.as_trimesh() {
-                Some(mesh) => area.recall(memory, way, shape, mesh, position, &mut |t| {
+                Some(mesh) => area.recall(memory, way, handle, shape, mesh, position, &mut |t| {
                     take(Geometry::Triangle(t));
                 }),
                 None => break_down(&area, shape, position, &mut |geometry, _| take(geometry)),

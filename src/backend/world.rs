@@ -15,6 +15,9 @@ use bevy_rapier3d::{
     },
 };
 
+#[cfg(feature = "vehicle")]
+use bevy_rapier3d::rapier::geometry::ColliderHandle;
+
 use super::{
     handles::entity_of,
     motion::{WorldPose, describe_motion, end_of_tick},
@@ -148,14 +151,14 @@ impl<'a> PhysicsView<'a> {
         (end.translation - now.translation + (turned - arm)) / dt
     }
 
-    /// Every collider in the search tree below nodes that are `near`, and whether it is of the body
-    /// `own`.
+    /// Every collider in the search tree below nodes that are `near`, by its handle, and whether it is of
+    /// the body `own`.
     #[cfg(feature = "vehicle")]
     pub(super) fn colliders_in(
         &self,
         near: impl Fn(&BvhNode) -> bool,
         own: &RapierRigidBodyHandle,
-    ) -> impl Iterator<Item = (&'a Collider, bool)> {
+    ) -> impl Iterator<Item = (ColliderHandle, &'a Collider, bool)> {
         let pipeline = self.simulation.broad_phase.as_query_pipeline(
             &DefaultQueryDispatcher,
             &self.bodies.bodies,
@@ -164,10 +167,10 @@ impl<'a> PhysicsView<'a> {
         );
         let own = own.0;
         pipeline.bvh.leaves(near).filter_map(move |leaf| {
-            let (collider, _) = pipeline.colliders.get_unknown_gen(leaf)?;
+            let (collider, handle) = pipeline.colliders.get_unknown_gen(leaf)?;
             collider
                 .is_enabled()
-                .then_some((collider, collider.parent() == Some(own)))
+                .then_some((handle, collider, collider.parent() == Some(own)))
         })
     }
 

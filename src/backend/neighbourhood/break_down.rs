@@ -13,7 +13,7 @@ use super::Geometry;
 use super::MeshMemory;
 use crate::math::{cuboid::Cuboid, triangle::Triangle};
 #[cfg(feature = "vehicle")]
-use bevy_rapier3d::rapier::geometry::TriMesh;
+use bevy_rapier3d::rapier::geometry::{ColliderHandle, TriMesh};
 
 /// The most boxes of an area.
 pub(crate) const MOST_BOXES: usize = 16;
@@ -51,6 +51,7 @@ impl Area<'_> {
         &self,
         memory: &mut MeshMemory,
         way: Vec3,
+        collider: ColliderHandle,
         shape: &SharedShape,
         mesh: &TriMesh,
         position: &Pose,
@@ -59,7 +60,7 @@ impl Area<'_> {
         let at = position.translation - self.origin;
         let turn = position.rotation;
         let origin = turn.inverse() * -at;
-        memory.triangles(self, way, shape, mesh, position, &mut |corners| {
+        memory.triangles(self, way, collider, shape, mesh, position, &mut |corners| {
             let [a, b, c] = corners.map(|p| turn * (p - origin));
             if let Some(triangle) = self.triangle(a, b, c) {
                 take(triangle);

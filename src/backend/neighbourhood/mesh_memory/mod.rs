@@ -3,13 +3,18 @@
 //! A search in a large mesh waits for memory at nearly every node. What moves little in a tick finds
 //! mostly the same triangles, so they are searched for in boxes that reach some ticks ahead, and kept,
 //! corners included, until a box leaves its own. What is handed out is what a search would find.
+//!
+//! Each collider has a place of its own, though many share one shape. Places are used again with their
+//! buffers, so that a way over the seams of a tiled terrain allocates only at the first of them.
+
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 
-use arrayvec::ArrayVec;
 use bevy::prelude::*;
 use bevy_rapier3d::rapier::{
-    geometry::{SharedShape, TriMesh},
+    geometry::{ColliderHandle, SharedShape, TriMesh},
     math::Pose,
 };
 
@@ -27,12 +32,14 @@ const AROUND: f32 = 0.15;
 
 /// What of meshes is near one vehicle.
 #[derive(Default)]
-pub(crate) struct MeshMemory(ArrayVec<Near, MOST_MESHES>);
+pub(crate) struct MeshMemory([Near; MOST_MESHES]);
 
-/// What of one mesh is near.
+/// A place for what of one mesh is near.
+#[derive(Default)]
 struct Near {
-    /// Kept alive: nothing else can be at its address, and who changes it changes a copy.
-    shape: SharedShape,
+    /// Whose it is. The shape is kept alive: nothing else can be at its address, and who changes it
+    /// changes a copy.
+    of: Option<(ColliderHandle, SharedShape)>,
     /// Where the triangles were searched for, in the axes of the mesh.
     searched: Nodes,
     triangles: Vec<[Vec3; 3]>,
@@ -45,47 +52,40 @@ struct Near {
 impl MeshMemory {
     /// Begins a tick: forgets what was not near in the last one.
     pub fn begin(&mut self) {
-        if self.0.iter().any(|near| !near.used) {
-            self.0.retain(|near| near.used);
-        }
         for near in &mut self.0 {
+            if !near.used {
+                near.of = None;
+            }
             near.used = false;
         }
     }
 
-    /// Hands every triangle of a mesh that may be in the area to `take`, in the axes of the mesh. `way` is
-    /// how far, in the world, boxes will move before the next search, metres.
+    /// Hands every triangle of a collider's mesh that may be in the area to `take`, in the axes of the
+    /// mesh. `way` is how far, in the world, boxes will move before the next search, metres.
     pub fn triangles(
         &mut self,
         area: &Area,
         way: Vec3,
+        collider: ColliderHandle,
         shape: &SharedShape,
         mesh: &TriMesh,
         position: &Pose,
         take: &mut impl FnMut([Vec3; 3]),
     ) {
         let nodes = area.nodes(position);
-        let own = |near: &Near| Arc::ptr_eq(&near.shape.0, &shape.0);
-        let at = self.0.iter().position(own);
-        let Some(at) = at.or_else(|| self.add(shape)) else {
+        let place = self.place(collider, shape).map(|near| {
+            if !near.searched.hold(&nodes) {
+                near.search(&nodes, position.rotation.inverse() * way, mesh);
+            }
+            near
+        });
+        let Some(near) = place.filter(|near| !near.dense) else {
             for index in mesh.bvh().leaves(|node| nodes.meet(node)) {
                 let t = mesh.triangle(index);
                 take([t.a, t.b, t.c]);
             }
             return;
         };
-        let near = &mut self.0[at];
-        near.used = true;
-        if !near.searched.hold(&nodes) {
-            near.search(&nodes, position.rotation.inverse() * way, mesh);
-        }
-        if near.dense {
-            for index in mesh.bvh().leaves(|node| nodes.meet(node)) {
-                let t = mesh.triangle(index);
-                take([t.a, t.b, t.c]);
-            }
-            return;
-        }
         for t in &near.triangles {
             let [a, b, c] = t;
             if nodes.meet_block(&Block::new(a.min(*b).min(*c), a.max(*b).max(*c))) {
@@ -94,16 +94,21 @@ impl MeshMemory {
         }
     }
 
-    fn add(&mut self, shape: &SharedShape) -> Option<usize> {
-        let near = Near {
-            shape: shape.clone(),
-            searched: Nodes::default(),
-            triangles: Vec::with_capacity(MOST_TRIANGLES),
-            dense: false,
-            used: true,
-        };
-        self.0.try_push(near).ok()?;
-        Some(self.0.len() - 1)
+    /// The place of a collider, or a free one that becomes its; `None` while all are others'.
+    fn place(&mut self, collider: ColliderHandle, shape: &SharedShape) -> Option<&mut Near> {
+        let whose = |near: &Near| near.of.as_ref().map(|(handle, _)| *handle);
+        let own = self.0.iter().position(|n| whose(n) == Some(collider));
+        let at = own.or_else(|| self.0.iter().position(|near| near.of.is_none()))?;
+        let near = &mut self.0[at];
+        near.used = true;
+        let same = |(_, old): &(_, SharedShape)| Arc::ptr_eq(&old.0, &shape.0);
+        if !near.of.as_ref().is_some_and(same) {
+            near.of = Some((collider, shape.clone()));
+            near.searched = Nodes::default();
+            near.triangles.clear();
+            near.triangles.reserve(MOST_TRIANGLES);
+        }
+        Some(near)
     }
 }
 
