@@ -27,6 +27,9 @@ use super::{
 };
 use crate::math::wheel::WheelCast;
 
+/// What a vehicle remembers of meshes: as much as is usually near its wheels.
+pub(crate) type WheelMemory = MeshMemory<4, 192>;
+
 /// What is moved along the probe's way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ProbeShape {
@@ -117,7 +120,7 @@ impl Ground {
     /// `memory` keeps what is near for some ticks, in which the boxes move by about `way`, metres.
     pub fn gather(
         &mut self,
-        memory: &mut MeshMemory,
+        memory: &mut WheelMemory,
         view: &PhysicsView,
         origin: Vec3,
         boxes: &[(Vec3, Vec3)],
@@ -158,9 +161,11 @@ impl Ground {
                 }
             };
             match shape.as_trimesh() {
-                Some(mesh) => area.recall(memory, way, handle, shape, mesh, position, &mut |t| {
-                    take(Geometry::Triangle(t));
-                }),
+                Some(mesh) => {
+                    area.recall(memory, way, handle, shape, mesh, position, &mut |t, _| {
+                        take(Geometry::Triangle(t));
+                    });
+                }
                 None => break_down(&area, shape, position, &mut |geometry, _| take(geometry)),
             }
         }

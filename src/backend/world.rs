@@ -9,19 +9,16 @@ use bevy_rapier3d::{
     prelude::{CollisionGroups, RapierConfiguration, RapierRigidBodyHandle},
     rapier::{
         dynamics::RigidBody,
-        geometry::{Aabb, Collider, InteractionGroups},
+        geometry::{Aabb, Collider, ColliderHandle, InteractionGroups},
         parry::{partitioning::BvhNode, query::DefaultQueryDispatcher},
         pipeline::QueryFilter,
     },
 };
 
-#[cfg(feature = "vehicle")]
-use bevy_rapier3d::rapier::geometry::ColliderHandle;
-
 use super::{
     handles::entity_of,
     motion::{WorldPose, describe_motion, end_of_tick},
-    neighbourhood::{Motion, Neighbourhood, Obstacle, ObstacleKind, Request, Volume},
+    neighbourhood::{Motion, MoverMemory, Neighbourhood, Obstacle, ObstacleKind, Request, Volume},
 };
 
 /// All physics worlds, to be read.
@@ -181,6 +178,7 @@ impl<'a> PhysicsView<'a> {
         groups: CollisionGroups,
         dt: f32,
         judge: impl Fn(Entity, Entity) -> Verdict,
+        memory: &mut MoverMemory,
         out: &mut Neighbourhood,
     ) {
         out.clear();
@@ -198,7 +196,7 @@ impl<'a> PhysicsView<'a> {
             QueryFilter::default(),
         );
         for leaf in pipeline.bvh.leaves(|node| node.intersects(&area)) {
-            let Some((collider, _)) = pipeline.colliders.get_unknown_gen(leaf) else {
+            let Some((collider, handle)) = pipeline.colliders.get_unknown_gen(leaf) else {
                 continue;
             };
             if !collider.is_enabled() || !collider.collision_groups().test(groups) {
@@ -218,16 +216,17 @@ impl<'a> PhysicsView<'a> {
                 }
                 continue;
             }
-            self.add_obstacle(request, collider, dt, &judge, out);
+            self.add_obstacle(request, (handle, collider), dt, &judge, memory, out);
         }
     }
 
     fn add_obstacle(
         &self,
         request: &Request,
-        collider: &'a Collider,
+        (handle, collider): (ColliderHandle, &'a Collider),
         dt: f32,
         judge: &impl Fn(Entity, Entity) -> Verdict,
+        memory: &mut MoverMemory,
         out: &mut Neighbourhood,
     ) {
         let entity = entity_of(collider.user_data);
@@ -281,13 +280,7 @@ impl<'a> PhysicsView<'a> {
         let index = out.obstacles.len() as u32;
         out.obstacles.push(obstacle);
         let pieces = out.pieces.len();
-        out.add_shape(
-            request,
-            index,
-            collider.shared_shape(),
-            collider.position(),
-            slack,
-        );
+        out.add_shape(request, memory, index, (handle, collider), slack);
         if out.pieces.len() == pieces {
             out.obstacles.pop();
         }

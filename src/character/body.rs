@@ -8,7 +8,7 @@ use super::{
     intent::Stance,
     motor::CharacterMotor,
     output::{CharacterContacts, CharacterSnapshot},
-    report::CharacterReport,
+    report::{CharacterMemory, CharacterReport},
     state::CharacterState,
     validate,
 };
@@ -215,6 +215,7 @@ pub(super) fn unmake(
     entity.try_remove::<(
         CharacterBody,
         CharacterReport,
+        CharacterMemory,
         CharacterSnapshot,
         CharacterContacts,
     )>();

@@ -10,7 +10,7 @@ use super::{
     intent::CharacterIntent,
     motor::CharacterMotor,
     output::{CharacterContacts, CharacterSnapshot},
-    report::CharacterReport,
+    report::{CharacterMemory, CharacterReport},
     state::CharacterState,
 };
 
@@ -45,6 +45,7 @@ use super::{
     CharacterSnapshot,
     CharacterBody,
     CharacterReport,
+    CharacterMemory,
     Transform,
     RigidBody::KinematicPositionBased
 )]

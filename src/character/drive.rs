@@ -13,7 +13,7 @@ use super::{
     intent::CharacterIntent,
     motor::CharacterMotor,
     output::{CharacterContacts, CharacterSnapshot},
-    report::{BodyImpulse, CharacterReport},
+    report::{BodyImpulse, CharacterMemory, CharacterReport},
     solver::Scratch,
     state::CharacterState,
     surface::{
@@ -102,7 +102,7 @@ pub(super) fn solve_characters(
         &mut CharacterBody,
         &mut CharacterState,
         &mut CharacterContacts,
-        &mut CharacterReport,
+        (&mut CharacterReport, &mut CharacterMemory),
     )>,
     scratch: Local<Parallel<Scratch>>,
 ) {
@@ -123,7 +123,7 @@ pub(super) fn solve_characters(
                 mut body,
                 mut state,
                 mut contacts,
-                mut report,
+                (mut report, mut memory),
             )| {
                 let Some(view) = worlds.of(link) else { return };
                 if !view.active {
@@ -165,6 +165,7 @@ pub(super) fn solve_characters(
                     &mut state,
                     &mut contacts,
                     &mut report,
+                    &mut memory,
                 ) else {
                     return;
                 };

@@ -4,7 +4,7 @@
 use bevy::prelude::*;
 
 use super::{intent::Stance, state::GroundState};
-use crate::backend::motion::WorldPose;
+use crate::backend::{motion::WorldPose, neighbourhood::MoverMemory};
 
 /// The decisions of one tick.
 #[derive(Component, Default)]
@@ -52,6 +52,10 @@ impl CharacterReport {
             || !self.hits.is_empty()
     }
 }
+
+/// What a character remembers of the meshes around it. Changes nothing of what it finds.
+#[derive(Component, Default)]
+pub(crate) struct CharacterMemory(pub MoverMemory);
 
 /// An impulse for a dynamic body.
 #[derive(Clone, Copy, Debug)]

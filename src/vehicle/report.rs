@@ -4,7 +4,7 @@
 use arrayvec::ArrayVec;
 use bevy::prelude::*;
 
-use crate::backend::neighbourhood::MeshMemory;
+use crate::backend::probe::WheelMemory;
 
 use super::{drivetrain::Shift, output::WheelState, solve::MOST_WHEELS};
 
@@ -48,7 +48,7 @@ pub(crate) struct VehicleReport {
     pub shares_key: Option<(f32, Vec3, usize)>,
     pub reshare: bool,
     /// The ground near its wheels.
-    pub meshes: MeshMemory,
+    pub meshes: WheelMemory,
 }
 
 impl Default for VehicleReport {
@@ -75,7 +75,7 @@ impl Default for VehicleReport {
             shares: ArrayVec::new(),
             shares_key: None,
             reshare: true,
-            meshes: MeshMemory::default(),
+            meshes: WheelMemory::default(),
         }
     }
 }

@@ -3,17 +3,14 @@
 use arrayvec::ArrayVec;
 use bevy::{math::Vec3A, prelude::*};
 use bevy_rapier3d::rapier::{
-    geometry::{Aabb, SharedShape, TypedShape},
+    geometry::{Aabb, ColliderHandle, SharedShape, TriMesh, TypedShape},
     math::Pose,
     parry::partitioning::BvhNode,
 };
 
 use super::Geometry;
-#[cfg(feature = "vehicle")]
 use super::MeshMemory;
 use crate::math::{cuboid::Cuboid, triangle::Triangle};
-#[cfg(feature = "vehicle")]
-use bevy_rapier3d::rapier::geometry::{ColliderHandle, TriMesh};
 
 /// The most boxes of an area.
 pub(crate) const MOST_BOXES: usize = 16;
@@ -46,24 +43,26 @@ impl Area<'_> {
     }
 
     /// The triangles of a mesh, as [`break_down`] hands them out, but from memory where they are in it.
-    #[cfg(feature = "vehicle")]
-    pub fn recall(
+    pub fn recall<const MESHES: usize, const TRIANGLES: usize>(
         &self,
-        memory: &mut MeshMemory,
+        memory: &mut MeshMemory<MESHES, TRIANGLES>,
         way: Vec3,
         collider: ColliderHandle,
         shape: &SharedShape,
         mesh: &TriMesh,
         position: &Pose,
-        take: &mut impl FnMut(Triangle),
+        take: &mut impl FnMut(Triangle, u32),
     ) {
         let at = position.translation - self.origin;
         let turn = position.rotation;
         let origin = turn.inverse() * -at;
-        memory.triangles(self, way, collider, shape, mesh, position, &mut |corners| {
+        memory.triangles(self, way, collider, shape, mesh, position, &mut |(
+            corners,
+            part,
+        )| {
             let [a, b, c] = corners.map(|p| turn * (p - origin));
             if let Some(triangle) = self.triangle(a, b, c) {
-                take(triangle);
+                take(triangle, part);
             }
         });
     }
@@ -125,7 +124,6 @@ impl Block {
         self.meets(&Self::new(node.mins(), node.maxs()))
     }
 
-    #[cfg(feature = "vehicle")]
     fn holds(&self, other: &Self) -> bool {
         (self.low.cmple(other.low) & self.high.cmpge(other.high)).all()
     }
@@ -163,14 +161,12 @@ impl Nodes {
     }
 
     /// Whether each box of another area lies in the one of the same number here.
-    #[cfg(feature = "vehicle")]
     pub fn hold(&self, other: &Self) -> bool {
         self.parts.len() == other.parts.len()
             && self.parts.iter().zip(&other.parts).all(|(a, b)| a.holds(b))
     }
 
     /// The area with all boxes larger by `around` on every side, and by a way.
-    #[cfg(feature = "vehicle")]
     pub fn ahead(&self, way: Vec3, around: f32) -> Self {
         let way = Vec3A::from(way);
         let mut nodes = Self::default();

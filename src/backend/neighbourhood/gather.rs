@@ -1,9 +1,9 @@
 //! Collecting the pieces from the physics world.
 
 use bevy::prelude::*;
-use bevy_rapier3d::rapier::{geometry::SharedShape, math::Pose};
+use bevy_rapier3d::rapier::geometry::{Collider, ColliderHandle};
 
-use super::{Area, Mover, MoverPose, Neighbourhood, Piece, break_down};
+use super::{Area, Geometry, Mover, MoverMemory, MoverPose, Neighbourhood, Piece, break_down};
 
 /// What to collect.
 pub(crate) struct Request<'a> {
@@ -21,6 +21,8 @@ pub(crate) struct Request<'a> {
     /// Points, relative to the origin, to find the sensors that hold them: the mover's middle and foot.
     pub middle: Vec3,
     pub foot: Vec3,
+    /// How far the box will move in the next ticks, metres.
+    pub way: Vec3,
 }
 
 impl Neighbourhood {
@@ -29,9 +31,9 @@ impl Neighbourhood {
     pub fn add_shape(
         &mut self,
         request: &Request,
+        memory: &mut MoverMemory,
         obstacle: u32,
-        shape: &SharedShape,
-        position: &Pose,
+        (handle, collider): (ColliderHandle, &Collider),
         slack: f32,
     ) {
         let area = Area {
@@ -40,7 +42,8 @@ impl Neighbourhood {
             grow: slack,
         };
         let skin = self.obstacles[obstacle as usize].skin;
-        break_down(&area, shape, position, &mut |geometry, part| {
+        let (shape, position) = (collider.shared_shape(), collider.position());
+        let mut take = |geometry: Geometry, part| {
             self.queries += 1;
             let found = request.mover.separation(&geometry, &request.pose);
             let clearance = found.distance - skin;
@@ -55,6 +58,13 @@ impl Neighbourhood {
                     point: found.point,
                 });
             }
-        });
+        };
+        match shape.as_trimesh() {
+            Some(mesh) => {
+                let take = &mut |t, part| take(Geometry::Triangle(t), part);
+                area.recall(memory, request.way, handle, shape, mesh, position, take);
+            }
+            None => break_down(&area, shape, position, &mut take),
+        }
     }
 }

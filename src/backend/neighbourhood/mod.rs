@@ -4,13 +4,13 @@
 //! the tick: whole convex colliders, triangles of meshes and height fields, cubes of voxel grids.
 //! All coordinates are relative to an origin near the shape, so far from the world's origin no
 //! digit is lost. Pieces that are too far to matter are left out by one distance evaluation each.
-//! Queries then never touch the physics world again.
+//! Queries then never touch the physics world again. Triangles of meshes are [remembered](MeshMemory)
+//! for some ticks.
 //!
 //! Memory is kept between ticks; gathering allocates only while a buffer still grows.
 
 mod break_down;
 mod gather;
-#[cfg(feature = "vehicle")]
 mod mesh_memory;
 mod mover;
 mod piece;
@@ -21,12 +21,14 @@ use bevy::{math::DQuat, prelude::*};
 pub(crate) use break_down::MOST_BOXES;
 pub(crate) use break_down::{Area, break_down};
 pub(crate) use gather::Request;
-#[cfg(feature = "vehicle")]
 pub(crate) use mesh_memory::MeshMemory;
 pub(crate) use mover::{Mover, MoverPose};
 pub(crate) use piece::{Geometry, Piece};
 
 use crate::math::Closest;
+
+/// What a mover remembers of meshes: on the seam of two, and as much as is near one of a few metres.
+pub(crate) type MoverMemory = MeshMemory<2, 64>;
 
 /// A sensor that holds the mover's middle or foot.
 #[derive(Clone, Copy, Debug)]

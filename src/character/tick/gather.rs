@@ -10,6 +10,9 @@ use crate::{
 
 /// How much farther than the way goes is looked, metres.
 const MARGIN: f32 = 0.05;
+/// For how many ticks ahead triangles of meshes are searched, and how far at most, metres.
+const TICKS_AHEAD: f32 = 8.0;
+const FARTHEST_AHEAD: f32 = 1.0;
 /// What of it is not needed to find what is touched, metres.
 const SPARE: f32 = 0.04;
 /// Part of a motion past another character that may be turned towards it.
@@ -17,7 +20,7 @@ const ASIDE: f32 = 0.5;
 
 impl Tick<'_, '_, '_, '_> {
     pub(super) fn gather(
-        &self,
+        &mut self,
         near: &mut Neighbourhood,
         mover: &Mover,
         pose: MoverPose,
@@ -60,6 +63,7 @@ impl Tick<'_, '_, '_, '_> {
             reach: displacement.length() + below.max(above) + margin + aside,
             middle: pose.position + up * mover.middle,
             foot: pose.position,
+            way: (displacement * TICKS_AHEAD).clamp_length_max(FARTHEST_AHEAD),
         };
         let around = self.around;
         around.view.gather(
@@ -67,6 +71,7 @@ impl Tick<'_, '_, '_, '_> {
             around.groups,
             around.dt,
             |collider, body| around.judge(collider, body, self.config.pushed_by_bodies),
+            self.memory,
             near,
         );
         self.share_gaps(near, displacement);
@@ -99,7 +104,7 @@ impl Tick<'_, '_, '_, '_> {
     }
 
     /// Looks again as far as a step reaches, for a motion that was stopped in the near neighbourhood.
-    pub(super) fn look_wider(&self, solver: &mut Solver, displacement: Vec3, growth: f32) {
+    pub(super) fn look_wider(&mut self, solver: &mut Solver, displacement: Vec3, growth: f32) {
         let queries = solver.near.queries;
         let (mover, pose) = (&solver.mover, solver.pose);
         solver.near.set_aside();

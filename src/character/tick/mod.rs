@@ -13,11 +13,15 @@ use super::{
     motor::CharacterMotor,
     output::{CharacterContacts, StanceRefusal},
     platform::{self, Carry},
-    report::{CharacterReport, Happened},
+    report::{CharacterMemory, CharacterReport, Happened},
     solver::{Bend, Growth, Scratch, Solver},
     state::{CharacterState, GroundState, MovementMode},
 };
-use crate::backend::{handles::RapierRigidBodyHandle, motion::WorldPose, neighbourhood::MoverPose};
+use crate::backend::{
+    handles::RapierRigidBodyHandle,
+    motion::WorldPose,
+    neighbourhood::{MoverMemory, MoverPose},
+};
 
 use outcome::support_velocity;
 pub(super) use surroundings::{Surroundings, Volume};
@@ -39,6 +43,7 @@ pub(super) struct Tick<'a, 'b, 'w, 's> {
     state: &'a mut CharacterState,
     contacts: &'a mut CharacterContacts,
     report: &'a mut CharacterReport,
+    memory: &'a mut MoverMemory,
     start: WorldPose,
     carry: Carry,
     /// How far something that moves could push it aside in the tick, metres.
@@ -58,6 +63,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
         state: &'a mut Mut<'b, CharacterState>,
         contacts: &'a mut Mut<'b, CharacterContacts>,
         report: &'a mut Mut<'b, CharacterReport>,
+        memory: &'a mut Mut<'b, CharacterMemory>,
     ) -> Option<Self> {
         let (now, mut asked) = around.view.body_pose(handle)?;
         let mover = body.mover.as_ref()?;
@@ -147,6 +153,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
             state,
             contacts,
             report,
+            memory: &mut memory.bypass_change_detection().0,
             start,
             carry,
             push: 0.0,
@@ -155,6 +162,7 @@ impl<'a, 'b, 'w, 's> Tick<'a, 'b, 'w, 's> {
 
     /// Solves the tick.
     pub fn run(mut self, scratch: &mut Scratch) {
+        self.memory.begin();
         let dt = self.around.dt;
         if self.report.placed {
             self.state.residual = Vec3::ZERO;

@@ -23,16 +23,21 @@ use super::{
     break_down::{Block, Nodes},
 };
 
-/// Meshes that are remembered at once.
-const MOST_MESHES: usize = 4;
-/// Triangles of a mesh that are remembered; where there are more, each tick searches.
-const MOST_TRIANGLES: usize = 192;
 /// How far around a box is searched for what comes from the side, metres.
 const AROUND: f32 = 0.15;
 
-/// What of meshes is near one vehicle.
-#[derive(Default)]
-pub(crate) struct MeshMemory([Near; MOST_MESHES]);
+/// A triangle's corners in the axes of its mesh, and its number there.
+pub(crate) type Part = ([Vec3; 3], u32);
+
+/// What of so many meshes is near one asker. Where a mesh has more than so many triangles near, every
+/// look searches.
+pub(crate) struct MeshMemory<const MESHES: usize, const TRIANGLES: usize>([Near; MESHES]);
+
+impl<const MESHES: usize, const TRIANGLES: usize> Default for MeshMemory<MESHES, TRIANGLES> {
+    fn default() -> Self {
+        Self(core::array::from_fn(|_| Near::default()))
+    }
+}
 
 /// A place for what of one mesh is near.
 #[derive(Default)]
@@ -42,14 +47,14 @@ struct Near {
     of: Option<(ColliderHandle, SharedShape)>,
     /// Where the triangles were searched for, in the axes of the mesh.
     searched: Nodes,
-    triangles: Vec<[Vec3; 3]>,
+    triangles: Vec<Part>,
     /// Whether there were too many.
     dense: bool,
     /// Whether the mesh was near in this tick.
     used: bool,
 }
 
-impl MeshMemory {
+impl<const MESHES: usize, const TRIANGLES: usize> MeshMemory<MESHES, TRIANGLES> {
     /// Begins a tick: forgets what was not near in the last one.
     pub fn begin(&mut self) {
         for near in &mut self.0 {
@@ -70,24 +75,25 @@ impl MeshMemory {
         shape: &SharedShape,
         mesh: &TriMesh,
         position: &Pose,
-        take: &mut impl FnMut([Vec3; 3]),
+        take: &mut impl FnMut(Part),
     ) {
         let nodes = area.nodes(position);
-        let place = self.place(collider, shape).map(|near| {
-            if !near.searched.hold(&nodes) {
-                near.search(&nodes, position.rotation.inverse() * way, mesh);
-            }
-            near
-        });
+        let mut place = self.place(collider, shape);
+        if let Some(near) = &mut place
+            && !near.searched.hold(&nodes)
+        {
+            let way = position.rotation.inverse() * way;
+            near.search(&nodes, way, mesh, TRIANGLES);
+        }
         let Some(near) = place.filter(|near| !near.dense) else {
             for index in mesh.bvh().leaves(|node| nodes.meet(node)) {
                 let t = mesh.triangle(index);
-                take([t.a, t.b, t.c]);
+                take(([t.a, t.b, t.c], index));
             }
             return;
         };
         for t in &near.triangles {
-            let [a, b, c] = t;
+            let ([a, b, c], _) = t;
             if nodes.meet_block(&Block::new(a.min(*b).min(*c), a.max(*b).max(*c))) {
                 take(*t);
             }
@@ -106,26 +112,26 @@ impl MeshMemory {
             near.of = Some((collider, shape.clone()));
             near.searched = Nodes::default();
             near.triangles.clear();
-            near.triangles.reserve(MOST_TRIANGLES);
+            near.triangles.reserve(TRIANGLES);
         }
         Some(near)
     }
 }
 
 impl Near {
-    fn search(&mut self, nodes: &Nodes, way: Vec3, mesh: &TriMesh) {
+    fn search(&mut self, nodes: &Nodes, way: Vec3, mesh: &TriMesh, most: usize) {
         self.searched = nodes.ahead(way, AROUND);
         self.triangles.clear();
         self.dense = false;
         let searched = &self.searched;
         for index in mesh.bvh().leaves(|node| searched.meet(node)) {
-            if self.triangles.len() == MOST_TRIANGLES {
+            if self.triangles.len() == most {
                 self.triangles.clear();
                 self.dense = true;
                 return;
             }
             let t = mesh.triangle(index);
-            self.triangles.push([t.a, t.b, t.c]);
+            self.triangles.push(([t.a, t.b, t.c], index));
         }
     }
 }

@@ -4,6 +4,10 @@ use crate::{
     math::triangle::Triangle,
 };
 
+const MOST_MESHES: usize = 4;
+const MOST_TRIANGLES: usize = 192;
+type Memory = MeshMemory<MOST_MESHES, MOST_TRIANGLES>;
+
 /// Numbers from -1 to 1, the same in every run.
 struct Dice(u32);
 
@@ -99,7 +103,7 @@ fn boxes(turn: Quat) -> [(Vec3, Vec3); 4] {
 /// One tick: what the memory hands out of every tile is, bit by bit, what a search finds. Tells how much
 /// that is.
 fn tick(
-    memory: &mut MeshMemory,
+    memory: &mut Memory,
     tiles: &[Tile],
     origin: Vec3,
     boxes: &[(Vec3, Vec3)],
@@ -115,7 +119,7 @@ fn tick(
     for tile in tiles {
         let (mut recalled, mut found) = (Vec::new(), Vec::new());
         let mesh = tile.shape.as_trimesh().unwrap();
-        let take = &mut |t: Triangle| recalled.push(bits(&t));
+        let take = &mut |t: Triangle, part| recalled.push((bits(&t), part));
         area.recall(
             memory,
             way,
@@ -125,9 +129,9 @@ fn tick(
             &tile.pose,
             take,
         );
-        break_down(&area, &tile.shape, &tile.pose, &mut |piece, _| {
+        break_down(&area, &tile.shape, &tile.pose, &mut |piece, part| {
             if let Geometry::Triangle(t) = piece {
-                found.push(bits(&t));
+                found.push((bits(&t), part));
             }
         });
         recalled.sort_unstable();
@@ -161,7 +165,7 @@ fn what_is_recalled_is_what_a_search_finds() {
         };
         let mut tiles: Vec<Tile> = Vec::new();
         let mut next = 0;
-        let mut memory = MeshMemory::default();
+        let mut memory = Memory::default();
         let (mut origin, mut velocity) = (Vec3::ZERO, Vec3::X * 0.2);
         let mut turn = Quat::IDENTITY;
         for _ in 0..120 {
@@ -224,10 +228,10 @@ fn road(tiles: u32) -> Vec<Tile> {
 #[test]
 fn tiles_of_one_shape_are_remembered_side_by_side() {
     let tiles = road(2);
-    let mut memory = MeshMemory::default();
+    let mut memory = Memory::default();
     // On the seam.
     let at = Vec3::X * 2.0;
-    let searched = |memory: &MeshMemory| memory.0.iter().filter(|near| near.of.is_some()).count();
+    let searched = |memory: &Memory| memory.0.iter().filter(|near| near.of.is_some()).count();
     let boxes = boxes(Quat::IDENTITY);
     assert!(tick(&mut memory, &tiles, at, &boxes, Vec3::ZERO) > 0);
     assert_eq!(searched(&memory), 2);
@@ -249,16 +253,22 @@ fn tiles_of_one_shape_are_remembered_side_by_side() {
     } in &tiles
     {
         let mesh = shape.as_trimesh().unwrap();
-        area.recall(&mut memory, Vec3::ZERO, *handle, shape, mesh, pose, &mut |t| {
-            panic!("searched for {t:?}")
-        });
+        area.recall(
+            &mut memory,
+            Vec3::ZERO,
+            *handle,
+            shape,
+            mesh,
+            pose,
+            &mut |t, _| panic!("searched for {t:?}"),
+        );
     }
 }
 
 #[test]
 fn a_way_over_many_tiles_uses_the_same_buffers() {
     let tiles = road(40);
-    let mut memory = MeshMemory::default();
+    let mut memory = Memory::default();
     let mut buffers = std::collections::BTreeSet::new();
     let velocity = Vec3::X * 0.4;
     for i in 0..380 {
