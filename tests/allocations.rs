@@ -9,7 +9,7 @@ use std::{
 use bevy::{app::TaskPoolOptions, math::ops, prelude::*};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
-use embody_scenes::{Patch, Sim, reference::*};
+use embody_scenes::{Patch, Sim, harness::around_tick, reference::*};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -62,21 +62,13 @@ fn end(mut allocated: ResMut<Allocated>) {
 
 /// A world on this one thread whose vehicle systems are counted.
 fn counted_sim() -> Sim {
-    use VehicleSystems::{Drive, Prepare, React};
     let mut sim = Sim::with(60.0, (EmbodyCorePlugin, VehiclePlugin));
-    sim.app.init_resource::<Allocated>().add_systems(
-        FixedPostUpdate,
-        (
-            begin.before(Prepare),
-            end.after(Prepare).before(PhysicsSet::SyncBackend),
-            begin
-                .after(PhysicsSet::SyncBackend)
-                .before(EmbodySystems::Drive),
-            end.after(Drive).before(PhysicsSet::StepSimulation),
-            begin.after(PhysicsSet::Writeback).before(React),
-            end.after(React),
-        ),
-    );
+    sim.app.init_resource::<Allocated>();
+    let sets = {
+        use VehicleSystems::{Drive, Prepare, React};
+        [Prepare, Drive, React]
+    };
+    around_tick(&mut sim.app, sets, begin, end);
     sim.in_line()
 }
 

@@ -11,6 +11,31 @@ use bevy::{
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 
+/// Runs these systems before and after all that systems in three sets do in a tick: one before Rapier
+/// takes over changes, one between that and its step, one after its results are written back.
+pub fn around_tick<S, B, E, M, N>(app: &mut App, [prepare, drive, react]: [S; 3], begin: B, end: E)
+where
+    S: SystemSet + Copy,
+    B: IntoSystem<(), (), M> + Copy + 'static,
+    E: IntoSystem<(), (), N> + Copy + 'static,
+    M: 'static,
+    N: 'static,
+{
+    app.add_systems(
+        FixedPostUpdate,
+        (
+            begin.before(prepare),
+            end.after(prepare).before(PhysicsSet::SyncBackend),
+            begin
+                .after(PhysicsSet::SyncBackend)
+                .before(EmbodySystems::Drive),
+            end.after(drive).before(PhysicsSet::StepSimulation),
+            begin.after(PhysicsSet::Writeback).before(react),
+            end.after(react),
+        ),
+    );
+}
+
 /// A headless app with `bevy_embody` in it.
 pub struct Sim {
     /// The app, ready to run.

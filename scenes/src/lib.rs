@@ -2,6 +2,7 @@
 
 pub mod builders;
 pub mod course;
+pub mod drivelines;
 pub mod driving;
 pub mod harness;
 pub mod reference;

@@ -8,6 +8,7 @@ use bevy_rapier3d::{
 };
 use embody_scenes::{
     Sim,
+    harness::around_tick,
     terrain::StableId,
     wavy::{FASTEST, LOWEST, Walker, Wavy},
 };
@@ -94,17 +95,8 @@ fn add_plugin(app: &mut App, side: Side) {
         // be there without characters.
         Side::Ours => {
             use EmbodySystems::{Drive, Prepare, React};
-            app.add_plugins(CharacterPlugin).add_systems(
-                FixedPostUpdate,
-                (
-                    begin.before(Prepare),
-                    end.after(Prepare).before(PhysicsSet::SyncBackend),
-                    begin.after(PhysicsSet::SyncBackend).before(Drive),
-                    end.after(Drive).before(PhysicsSet::StepSimulation),
-                    begin.after(PhysicsSet::Writeback).before(React),
-                    end.after(React),
-                ),
-            );
+            app.add_plugins(CharacterPlugin);
+            around_tick(app, [Prepare, Drive, React], begin, end);
         }
         // The controller has no gravity and keeps no velocity: the system that does so is as
         // small as it can be, and a part of the character's work, as it is on our side.

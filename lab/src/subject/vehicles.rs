@@ -5,6 +5,7 @@ use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::{
     Sim,
+    harness::around_tick,
     terrain::StableId,
     traffic::{Driver, LOWEST, Traffic},
 };
@@ -81,19 +82,8 @@ fn add_plugin(app: &mut App, side: Side) {
     match side {
         Side::Ours => {
             use VehicleSystems::{Drive, Prepare, React};
-            app.add_plugins(VehiclePlugin).add_systems(
-                FixedPostUpdate,
-                (
-                    begin.before(Prepare),
-                    end.after(Prepare).before(PhysicsSet::SyncBackend),
-                    begin
-                        .after(PhysicsSet::SyncBackend)
-                        .before(EmbodySystems::Drive),
-                    end.after(Drive).before(PhysicsSet::StepSimulation),
-                    begin.after(PhysicsSet::Writeback).before(React),
-                    end.after(React),
-                ),
-            );
+            app.add_plugins(VehiclePlugin);
+            around_tick(app, [Prepare, Drive, React], begin, end);
         }
         Side::Rapier => {
             app.add_systems(

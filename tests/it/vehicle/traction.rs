@@ -2,55 +2,17 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
-use embody_scenes::Sim;
+use embody_scenes::{Sim, drivelines::*};
 
 use super::support::*;
-
-/// 448 N·m at every speed, gear 2.66, final drive 3.42, efficiency 0.7, wheels of 0.34 m.
-fn corvette(inertia: f32) -> Plan {
-    let mut plan = Plan::reference().wheel(|i, w| {
-        w.driven = i >= 2;
-        w.radius = 0.34;
-        w.attachment.y += 0.04;
-        w.tire.friction = Vec2::splat(3.0);
-    });
-    plan.vehicle.drivetrain = Some(Drivetrain {
-        source: PowerSource::Engine(Engine {
-            torque: vec![TorquePoint {
-                rpm: 1000.0,
-                torque: 448.0,
-            }],
-            idle: 700.0,
-            redline: 6000.0,
-            inertia,
-            friction: 0.0,
-            viscosity: 0.0,
-            stall: None,
-        }),
-        clutch: Clutch {
-            torque: 2000.0,
-            automatic: false,
-        },
-        gearbox: Gearbox {
-            forward: vec![2.66, 1.78],
-            reverse: 2.9,
-            shift_time: 0.25,
-            shifting: Shifting::Manual,
-        },
-        final_drive: 3.42,
-        efficiency: 0.7,
-        ..default()
-    });
-    plan
-}
 
 /// Lets the car roll with its engine turning as fast as its wheels make it.
 fn in_gear(sim: &mut Sim, car: &Car, speed: f32, ratio: f32) {
     car.push(sim, Vec3::NEG_Z * speed);
     edit::<VehicleState>(sim, car.body, |state| {
-        state.engine_speed = speed / 0.34 * ratio;
+        state.engine_speed = speed / CORVETTE_RADIUS * ratio;
         for wheel in &mut state.wheels {
-            wheel.spin = speed / 0.34;
+            wheel.spin = speed / CORVETTE_RADIUS;
         }
     });
 }
@@ -64,7 +26,7 @@ fn traction_is_torque_times_gears_times_efficiency_over_radius() {
         // Next to no inertia: all of the torque goes to the wheels.
         let car = corvette(1.0e-4).spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 150.0));
         sim.seconds(1.0);
-        in_gear(&mut sim, &car, 20.0 / 3.6, 2.66 * 3.42);
+        in_gear(&mut sim, &car, 20.0 / 3.6, CORVETTE_RATIO);
         sim.ticks(2);
         let rpm = car.telemetry(&sim).rpm;
         found.within(format!("{hz} Hz: rpm"), rpm, 1419.0, 0.001);
@@ -83,7 +45,7 @@ fn a_car_accelerates_as_its_effective_mass_says() {
         sim.floor(0.0);
         let car = corvette(0.2).spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 150.0));
         sim.seconds(1.0);
-        let ratio = 2.66 * 3.42;
+        let ratio = CORVETTE_RATIO;
         in_gear(&mut sim, &car, 5.0, ratio);
         car.ask(&mut sim, |i| i.throttle = 1.0);
         sim.seconds(0.7);
@@ -105,7 +67,7 @@ fn engine_speed_and_car_speed_are_tied_by_the_gears() {
         sim.floor(0.0);
         let car = corvette(0.2).spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 190.0));
         sim.seconds(1.0);
-        in_gear(&mut sim, &car, 10.0, 2.66 * 3.42);
+        in_gear(&mut sim, &car, 10.0, CORVETTE_RATIO);
         car.ask(&mut sim, |i| i.throttle = 1.0);
         let mut highest = 0.0f32;
         for _ in 0..(6.0 * hz) as usize {
@@ -115,7 +77,7 @@ fn engine_speed_and_car_speed_are_tied_by_the_gears() {
         // At the limiter: 6000 rpm in first are 20.72 m/s at 0.3 m, 23.48 at 0.34.
         found.near(format!("{hz} Hz: rpm"), highest, 6000.0, 200.0);
         let spin = car.wheel(&sim, 2).spin * 0.5 + car.wheel(&sim, 3).spin * 0.5;
-        let rpm = spin * 2.66 * 3.42 * 60.0 / core::f32::consts::TAU;
+        let rpm = spin * CORVETTE_RATIO * 60.0 / core::f32::consts::TAU;
         found.within(
             format!("{hz} Hz: tied"),
             car.telemetry(&sim).rpm,
@@ -204,32 +166,8 @@ fn launches_of_each_drive_layout_take_as_long_as_their_grip_says() {
 /// and their loads after a second.
 fn split(hz: f64, differential: Differential, torque: f32) -> (Vec<WheelState>, VehicleTelemetry) {
     let mut sim = Sim::new(hz);
-    for (x, friction) in [(-50.0, 0.1), (50.0, 1.0)] {
-        let slab = sim.block(Vec3::new(x, -0.5, 0.0), Vec3::new(100.0, 1.0, 400.0));
-        insert(&mut sim, slab, SurfaceFriction::new(friction));
-    }
-    let mut plan = Plan::reference().wheel(|i, w| w.driven = i >= 2);
-    plan.vehicle.drivetrain = Some(Drivetrain {
-        source: PowerSource::Motor(ElectricMotor {
-            torque,
-            power: 1.0e9,
-            redline: 1.0e6,
-            inertia: 1.0e-3,
-            recuperation: 0.0,
-        }),
-        gearbox: Gearbox {
-            forward: vec![1.0],
-            ..default()
-        },
-        final_drive: 1.0,
-        efficiency: 1.0,
-        axles: vec![DrivenAxle {
-            axle: 1,
-            share: 1.0,
-            differential,
-        }],
-        ..default()
-    });
+    split_road(&mut sim);
+    let plan = rear_motor(torque, differential);
     let car = plan.spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 100.0));
     sim.seconds(1.0);
     car.ask(&mut sim, |i| i.throttle = 1.0);
@@ -307,7 +245,7 @@ fn an_unequal_split_between_the_axles_is_the_configured_one() {
             }
             let car = plan.spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 150.0));
             sim.seconds(1.0);
-            in_gear(&mut sim, &car, 8.0, 2.66 * 3.42);
+            in_gear(&mut sim, &car, 8.0, CORVETTE_RATIO);
             car.ask(&mut sim, |i| i.throttle = 0.5);
             sim.seconds(0.5);
             let t: Vec<f32> = car.all(&sim).iter().map(|w| w.drive_torque).collect();

@@ -2,11 +2,14 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
-use embody_scenes::reference::{HEIGHT, Plan};
+use embody_scenes::{
+    drivelines::{corvette, rear_motor, split_road},
+    reference::HEIGHT,
+};
 
 use super::{
     Case, Stage, alone, case,
-    gears::{corvette, parked, ratio, set_rolling},
+    gears::{parked, ratio, set_rolling},
 };
 
 pub const CASES: &[Case] = &[
@@ -106,30 +109,8 @@ fn of_split(
     torque: f32,
     read: fn(&[WheelState], f32) -> f64,
 ) -> f64 {
-    for (x, friction) in [(-50.0, 0.1), (50.0, 1.0)] {
-        let size = Vec3::new(100.0, 1.0, 400.0);
-        let slab = s.sim.block(Vec3::new(x, -0.5, 0.0), size);
-        let mut slab = s.sim.app.world_mut().entity_mut(slab);
-        slab.insert(SurfaceFriction::new(friction));
-    }
-    let mut plan = Plan::reference().wheel(|i, wheel| wheel.driven = i >= 2);
-    plan.vehicle.drivetrain = Some(Drivetrain {
-        source: PowerSource::Motor(ElectricMotor {
-            torque,
-            power: 1.0e9,
-            redline: 1.0e6,
-            inertia: 1.0e-3,
-            recuperation: 0.0,
-        }),
-        gearbox: Gearbox {
-            forward: vec![1.0],
-            ..default()
-        },
-        final_drive: 1.0,
-        efficiency: 1.0,
-        axles: vec![axle(1, 1.0, differential)],
-        ..default()
-    });
+    split_road(&mut s.sim);
+    let plan = rear_motor(torque, differential);
     s.spawn(&plan, 0.0, Transform::from_xyz(0.0, HEIGHT, 100.0));
     s.sim.seconds(1.0);
     s.ask(1.0, 0.0, 0.0);

@@ -2,7 +2,10 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
-use embody_scenes::reference::{Car, HEIGHT, MASS, Plan, plane};
+use embody_scenes::{
+    drivelines::{CORVETTE_RADIUS, CORVETTE_RATIO, corvette},
+    reference::{Car, HEIGHT, MASS, Plan, plane},
+};
 
 use super::{Case, Stage, alone, case, nothing};
 
@@ -81,52 +84,8 @@ pub const CASES: &[Case] = &[
     )),
 ];
 
-/// Radius of the wheels, metres.
-const RADIUS: f32 = 0.34;
-/// Gear and final drive.
-const RATIO: f32 = 2.66 * 3.42;
-
 pub fn ratio(a: f32, b: f32) -> f64 {
     f64::from(a) / f64::from(b)
-}
-
-/// 448 N·m at every speed, gear 2.66, final drive 3.42, efficiency 0.7, wheels of 0.34 m; an engine of
-/// this inertia (kg·m²).
-pub fn corvette(inertia: f32) -> Plan {
-    let mut plan = Plan::reference().wheel(|i, wheel| {
-        wheel.driven = i >= 2;
-        wheel.radius = RADIUS;
-        wheel.attachment.y += 0.04;
-        wheel.tire.friction = Vec2::splat(3.0);
-    });
-    plan.vehicle.drivetrain = Some(Drivetrain {
-        source: PowerSource::Engine(Engine {
-            torque: vec![TorquePoint {
-                rpm: 1000.0,
-                torque: 448.0,
-            }],
-            idle: 700.0,
-            redline: 6000.0,
-            inertia,
-            friction: 0.0,
-            viscosity: 0.0,
-            stall: None,
-        }),
-        clutch: Clutch {
-            torque: 2000.0,
-            automatic: false,
-        },
-        gearbox: Gearbox {
-            forward: vec![2.66, 1.78],
-            reverse: 2.9,
-            shift_time: 0.3,
-            shifting: Shifting::Manual,
-        },
-        final_drive: 3.42,
-        efficiency: 0.7,
-        ..default()
-    });
-    plan
 }
 
 /// A plan's car on a plane.
@@ -143,9 +102,9 @@ pub fn set_rolling(s: &mut Stage, car: &Car, speed: f32) {
     s.push(Vec3::NEG_Z * speed);
     let world = s.sim.app.world_mut();
     if let Some(mut state) = world.get_mut::<VehicleState>(car.body) {
-        state.engine_speed = speed / RADIUS * RATIO;
+        state.engine_speed = speed / CORVETTE_RADIUS * CORVETTE_RATIO;
         for wheel in &mut state.wheels {
-            wheel.spin = speed / RADIUS;
+            wheel.spin = speed / CORVETTE_RADIUS;
         }
     }
     s.sim.ticks(2);
@@ -165,7 +124,7 @@ fn traction(s: Stage) -> f64 {
     s.ask(1.0, 0.0, 0.0);
     s.sim.seconds(0.5);
     let torque: f32 = car.all(&s.sim).iter().map(|wheel| wheel.drive_torque).sum();
-    ratio(torque, RADIUS)
+    ratio(torque, CORVETTE_RADIUS)
 }
 
 fn effective_mass(s: Stage) -> f64 {
