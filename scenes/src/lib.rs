@@ -3,6 +3,10 @@
 pub mod builders;
 pub mod course;
 pub mod driving;
+#[cfg(feature = "window")]
+pub mod falling;
+#[cfg(feature = "window")]
+pub mod figures;
 pub mod harness;
 pub mod reference;
 #[cfg(feature = "window")]
