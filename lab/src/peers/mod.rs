@@ -53,7 +53,7 @@ pub struct Results {
     /// Ours in each size.
     crowds: Vec<World>,
     /// Ours in the middle size on two threads.
-    shared: World,
+    shared: Option<World>,
     /// Ours in the subject's other scenes.
     variants: Vec<World>,
 }
@@ -96,7 +96,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
             .iter()
             .flatten()
             .chain(&results.crowds)
-            .chain([&results.shared])
+            .chain(&results.shared)
             .chain(&results.variants)
             .collect();
         output::write_out(folder, &worlds, &checks)
@@ -162,11 +162,13 @@ fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Resul
         .collect();
     let shared = World::new(subject.name, Side::Ours, 2, size(SIZES[1]), steps(100));
     // Beside the one that it is compared with.
-    crowds.insert(1, shared);
+    if !crowds.is_empty() {
+        crowds.insert(1, shared);
+    }
     turns.measure(&mut crowds, |world| {
         repeats.min(3).min((LARGEST / world.options.count) as usize)
     })?;
-    let shared = crowds.remove(1);
+    let shared = (!crowds.is_empty()).then(|| crowds.remove(1));
     let mut variants: Vec<World> = subject
         .variants
         .iter()
@@ -262,16 +264,15 @@ fn speed_ups<'a>(
 
 /// By what factor the second thread makes the crowd of the middle size faster.
 fn shared_speed_up(results: &Results) -> Option<f64> {
-    let alone = results.crowds.get(1)?;
-    (alone.options.count == results.shared.options.count)
-        .then(|| alone.wall() / results.shared.wall())
+    let (alone, shared) = (results.crowds.get(1)?, results.shared.as_ref()?);
+    (alone.options.count == shared.options.count).then(|| alone.wall() / shared.wall())
 }
 
 fn judge_shared(subject: &Subject, results: &Results, checks: &mut Vec<Check>) {
-    let Some(speed_up) = shared_speed_up(results) else {
+    let (Some(speed_up), Some(shared)) = (shared_speed_up(results), &results.shared) else {
         return;
     };
-    let n = results.shared.options.count;
+    let n = shared.options.count;
     println!(
         "scale {} n={n} threads=2 speedup={speed_up:.2}x",
         subject.name

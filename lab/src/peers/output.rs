@@ -110,8 +110,8 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
             }
         })
         .collect();
-    let crowd = results.shared.options.count;
-    if crowd != subject.count
+    if let Some(crowd) = results.shared.as_ref().map(|w| w.options.count)
+        && crowd != subject.count
         && let Some(factor) = shared_speed_up(results)
     {
         speed_ups.push(format!("{factor:.2} ({crowd} of them)"));

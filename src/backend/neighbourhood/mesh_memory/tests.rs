@@ -249,9 +249,15 @@ fn tiles_of_one_shape_are_remembered_side_by_side() {
     } in &tiles
     {
         let mesh = shape.as_trimesh().unwrap();
-        area.recall(&mut memory, Vec3::ZERO, *handle, shape, mesh, pose, &mut |t| {
-            panic!("searched for {t:?}")
-        });
+        area.recall(
+            &mut memory,
+            Vec3::ZERO,
+            *handle,
+            shape,
+            mesh,
+            pose,
+            &mut |t| panic!("searched for {t:?}"),
+        );
     }
 }
 
