@@ -1,11 +1,11 @@
-//! A walk through the course and a drive over the proving ground: every part of the character
-//! controller and of the vehicles.
+//! A walk through the course, a drive over the proving ground and falls in the yard: every part of the
+//! character controller, of the vehicles and of the ragdolls.
 //!
 //! - `playground` opens a window; `F1` lists the keys.
 //! - `playground --station oval --vehicle kart` starts there, driving that.
 //! - `playground --headless` (also without a display) lets a scripted walker visit every station,
-//!   and a scripted driver every driving station with every vehicle, and prints what was asked and
-//!   what happened.
+//!   a scripted driver every driving station with every vehicle, and humans fall at every falling
+//!   station, and prints what was asked and what happened.
 //! - `playground --screenshot FILE --station NAME` saves a picture; the name `overview` shows the
 //!   whole course.
 
@@ -17,6 +17,7 @@ use clap::Parser;
 use embody_scenes::{
     course::{Course, CourseError},
     driving::run_driving,
+    falling::run_falling,
     shell::{
         CourseShellPlugin, Models, ShellPlugin, Shot, ShotPlugin, Start, Switches, has_display,
         window_plugins,
@@ -89,6 +90,7 @@ fn main() -> ExitCode {
 fn headless(options: &Options) -> Result<ExitCode, CourseError> {
     let mut results = run_headless(options.filter.as_deref(), options.hz)?;
     results.extend(run_driving(options.filter.as_deref(), options.hz)?);
+    results.extend(run_falling(options.filter.as_deref(), options.hz));
     print_table(&results);
     // A filter that finds nothing proves nothing.
     let passed =

@@ -24,6 +24,8 @@ pub fn measure(options: &Options, under: &[String]) -> Result<Measured, String> 
         None => Command::new(program),
     };
     command
+        // The threads of the solver, where it is built to have some.
+        .env("RAYON_NUM_THREADS", options.threads.to_string())
         .arg("profile")
         .arg("--json")
         .args(["--scene", &options.scene])

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     probe::{Probe, on_processor},
     side::Side,
-    subject::{self, Subject},
+    subject::{self, Joints, Subject},
 };
 
 /// Which world, and for how long.
@@ -59,6 +59,8 @@ pub struct Measured {
     pub fastest: f32,
     /// Who left the level: fell below the ground, was thrown high up, or fell over.
     pub lost: Vec<Lost>,
+    /// The joints of figures.
+    pub joints: Joints,
 }
 
 /// Where somebody was before and after it left the level.
@@ -97,6 +99,9 @@ pub fn run(options: &Options) -> Result<(), String> {
         measured.lost.len(),
         measured.hash,
     );
+    if measured.joints.bodies > 0 {
+        println!("{:?}", measured.joints);
+    }
     for lost in &measured.lost {
         println!(
             "lost {} in tick {} from {:?} to {:?}",
@@ -133,6 +138,7 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         progress: 0.0,
         fastest: 0.0,
         lost: Vec::new(),
+        joints: Joints::default(),
     };
     let mut way = Way::default();
     sim.app.world_mut().resource_mut::<Probe>().take();
@@ -151,6 +157,10 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         measured.busy.push(spent.busy.as_nanos() as u64);
         measured.allocations.push(spent.allocations);
         way.follow(sim.app.world_mut(), subject, tick);
+        if subject.together {
+            let now = subject::joints(sim.app.world_mut());
+            measured.joints.then(&now, tick + 1);
+        }
     }
     measured.hash = hash(sim.app.world_mut());
     measured.progress = way.went / way.wished.max(f64::MIN_POSITIVE);

@@ -4,6 +4,10 @@ pub mod builders;
 pub mod course;
 pub mod drivelines;
 pub mod driving;
+#[cfg(feature = "window")]
+pub mod falling;
+#[cfg(feature = "window")]
+pub mod figures;
 pub mod harness;
 pub mod reference;
 #[cfg(feature = "window")]

@@ -29,6 +29,13 @@ use crate::backend::{
 #[derive(Resource, Default)]
 pub(super) struct BoneForces(Vec<BoneForce>);
 
+impl BoneForces {
+    /// Adds one.
+    pub fn add(&mut self, force: BoneForce) {
+        self.0.push(force);
+    }
+}
+
 /// Gives new bones their mass before they are first moved.
 pub(super) fn admit_new(
     mut worlds: PhysicsWorldsMut,

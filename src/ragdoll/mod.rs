@@ -14,6 +14,7 @@
 #[cfg(feature = "serialize")]
 mod asset;
 mod bake;
+mod balance;
 mod blend;
 mod bone;
 mod conditioning;
@@ -56,6 +57,7 @@ use crate::{
 #[cfg(feature = "serialize")]
 pub use asset::{RagdollFromProfile, RagdollProfileError, RagdollProfileLoader};
 pub use bake::BakeRagdoll;
+pub use balance::{BalanceState, Pendulum, RagdollBalance};
 pub use blend::{BoneJoint, RagdollBlend};
 pub use bone::{BoneOf, BoneOutput, Bones, RagdollBone};
 pub use config::{Ragdoll, RagdollDrive};
@@ -119,6 +121,8 @@ impl Plugin for RagdollPlugin {
             .register_type::<Reattach>()
             .register_type::<JointBroke>()
             .register_type::<BakeRagdoll>()
+            .register_type::<RagdollBalance>()
+            .register_type::<BalanceState>()
             .add_observer(bake::bake)
             .add_observer(bake::unmake)
             .add_observer(hit::take)
@@ -163,6 +167,7 @@ impl Plugin for RagdollPlugin {
                     drive::tie,
                     sever::part,
                     drive::drive,
+                    balance::stand.run_if(any_with_component::<RagdollBalance>),
                     drive::apply_forces,
                 )
                     .chain()

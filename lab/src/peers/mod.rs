@@ -1,5 +1,6 @@
 //! Our controllers beside their peers, on one thread and two, at scale, at rest.
 
+mod joints;
 mod output;
 mod world;
 
@@ -47,12 +48,12 @@ pub struct Options {
 
 /// Every world that was measured.
 pub struct Results {
-    /// For each number of threads all of ours that are compared, and the peer's.
+    /// For each number of threads all of ours that are compared, and the peers'.
     sides: Vec<Vec<World>>,
     /// Ours in each size.
     crowds: Vec<World>,
     /// Ours in the middle size on two threads.
-    shared: World,
+    shared: Option<World>,
     /// Ours in the subject's other scenes.
     variants: Vec<World>,
 }
@@ -68,6 +69,9 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
     let mut checks = Vec::new();
     judge_sides(subject, &results.sides, &mut checks);
     judge_state(subject, &results.sides, &mut checks);
+    if subject.together {
+        joints::judge(subject, &results.sides, &mut checks);
+    }
     judge_crowds(subject, &results.crowds, &mut checks);
     judge_shared(subject, &results, &mut checks);
     for (variant, world) in subject.variants.iter().zip(&results.variants) {
@@ -92,7 +96,7 @@ pub fn run(options: &Options) -> Result<ExitCode, String> {
             .iter()
             .flatten()
             .chain(&results.crowds)
-            .chain([&results.shared])
+            .chain(&results.shared)
             .chain(&results.variants)
             .collect();
         output::write_out(folder, &worlds, &checks)
@@ -131,7 +135,7 @@ fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Resul
         .into_iter()
         .flat_map(|threads| {
             let ours = subject.compared.iter().map(|c| (c.scene, Side::Ours));
-            ours.chain([(subject.name, Side::Rapier)])
+            ours.chain(peers(subject).map(|scene| (scene, Side::Rapier)))
                 .map(move |(scene, side)| (scene, side, threads))
         })
         .map(|(scene, side, threads)| world(scene, side, threads))
@@ -140,22 +144,31 @@ fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Resul
     let mut left = sides.into_iter();
     let sides = THREADS
         .iter()
-        .map(|_| left.by_ref().take(subject.compared.len() + 1).collect())
+        .map(|_| {
+            let each = subject.compared.len() + peers(subject).count();
+            left.by_ref().take(each).collect()
+        })
         .collect();
     // Large crowds take long: the same short stretch of time is measured for every size, and the
     // largest, which is a mean over many already, once.
-    let sizes = if quick { &SIZES[..2] } else { &SIZES[..] };
+    let sizes = match (subject.together, quick) {
+        (true, _) => &[],
+        (_, true) => &SIZES[..2],
+        _ => &SIZES[..],
+    };
     let mut crowds: Vec<World> = sizes
         .iter()
         .map(|size| World::new(subject.name, Side::Ours, 1, *size, steps(100)))
         .collect();
     let shared = World::new(subject.name, Side::Ours, 2, size(SIZES[1]), steps(100));
     // Beside the one that it is compared with.
-    crowds.insert(1, shared);
+    if !crowds.is_empty() {
+        crowds.insert(1, shared);
+    }
     turns.measure(&mut crowds, |world| {
         repeats.min(3).min((LARGEST / world.options.count) as usize)
     })?;
-    let shared = crowds.remove(1);
+    let shared = (!crowds.is_empty()).then(|| crowds.remove(1));
     let mut variants: Vec<World> = subject
         .variants
         .iter()
@@ -175,16 +188,20 @@ fn measure(subject: &Subject, options: &Options, repeats: usize) -> Result<Resul
 
 fn judge_sides(subject: &Subject, sides: &[Vec<World>], checks: &mut Vec<Check>) {
     for worlds in sides {
-        let Some((peer, all)) = worlds.split_last() else {
-            continue;
-        };
-        for (compared, own) in subject.compared.iter().zip(all) {
+        for (compared, own, peer) in pairs(subject, worlds) {
             let threads = own.options.threads;
             let about = about(subject, threads, compared.tag);
             let (ours, rapier) = (own.work(), peer.work());
             let factor = ours / rapier;
+            let (scale, unit) = if subject.together {
+                (1e-3 * f64::from(own.options.count), "ms")
+            } else {
+                (1.0, "us")
+            };
             println!(
-                "peers {about} ours={ours:.1}us rapier={rapier:.1}us ratio={}",
+                "peers {about} ours={:.1}{unit} rapier={:.1}{unit} ratio={}",
+                ours * scale,
+                rapier * scale,
                 ratio(factor)
             );
             println!(
@@ -214,6 +231,24 @@ fn judge_sides(subject: &Subject, sides: &[Vec<World>], checks: &mut Vec<Check>)
     }
 }
 
+/// The peer's scenes.
+fn peers(subject: &Subject) -> impl Iterator<Item = &'static str> + use<> {
+    let own = subject.compared.iter().map(|c| c.scene);
+    let count = if subject.together { own.len() } else { 0 };
+    let one = (count == 0).then_some(subject.name);
+    own.take(count).chain(one)
+}
+
+/// Each of ours with its peer.
+pub fn pairs<'a>(
+    subject: &'a Subject,
+    worlds: &'a [World],
+) -> impl Iterator<Item = (&'a Compared, &'a World, &'a World)> {
+    let (ours, peers) = worlds.split_at(subject.compared.len().min(worlds.len()));
+    let all = subject.compared.iter().zip(ours).enumerate();
+    all.filter_map(|(i, (compared, own))| Some((compared, own, peers.get(i).or(peers.last())?)))
+}
+
 /// By what factor the second thread makes each of ours faster.
 fn speed_ups<'a>(
     subject: &'a Subject,
@@ -229,16 +264,15 @@ fn speed_ups<'a>(
 
 /// By what factor the second thread makes the crowd of the middle size faster.
 fn shared_speed_up(results: &Results) -> Option<f64> {
-    let alone = results.crowds.get(1)?;
-    (alone.options.count == results.shared.options.count)
-        .then(|| alone.wall() / results.shared.wall())
+    let (alone, shared) = (results.crowds.get(1)?, results.shared.as_ref()?);
+    (alone.options.count == shared.options.count).then(|| alone.wall() / shared.wall())
 }
 
 fn judge_shared(subject: &Subject, results: &Results, checks: &mut Vec<Check>) {
-    let Some(speed_up) = shared_speed_up(results) else {
+    let (Some(speed_up), Some(shared)) = (shared_speed_up(results), &results.shared) else {
         return;
     };
-    let n = results.shared.options.count;
+    let n = shared.options.count;
     println!(
         "scale {} n={n} threads=2 speedup={speed_up:.2}x",
         subject.name
@@ -264,13 +298,15 @@ fn judge_state(subject: &Subject, sides: &[Vec<World>], checks: &mut Vec<Check>)
             "{}",
             named(&format!("allocations per tick={}", short(allocations)))
         );
-        // A quick run is over before every buffer has grown to its size.
-        checks.push(Check::timing(
-            named("allocations per tick"),
-            allocations,
-            Must::Equal,
-            0.0,
-        ));
+        // A quick run is over before every buffer has grown to its size; a whole tick is the engine's, too.
+        if !subject.together {
+            checks.push(Check::timing(
+                named("allocations per tick"),
+                allocations,
+                Must::Equal,
+                0.0,
+            ));
+        }
         for world in ours {
             println!(
                 "state {} hash={:016x}",

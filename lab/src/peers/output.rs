@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use serde::Serialize;
 
-use super::{Results, World, shared_speed_up, speed_ups};
+use super::{Results, World, pairs, shared_speed_up, speed_ups};
 use crate::{bounds::Check, side::Side, subject::Subject};
 
 /// One line of results.
@@ -70,10 +70,7 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
         subject.one
     );
     for worlds in &results.sides {
-        let Some((peer, all)) = worlds.split_last() else {
-            continue;
-        };
-        for (compared, own) in subject.compared.iter().zip(all) {
+        for (compared, own, peer) in pairs(subject, worlds) {
             let threads = match own.options.threads {
                 1 => "one thread".to_owned(),
                 n => format!("{n} threads"),
@@ -113,8 +110,8 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
             }
         })
         .collect();
-    let crowd = results.shared.options.count;
-    if crowd != subject.count
+    if let Some(crowd) = results.shared.as_ref().map(|w| w.options.count)
+        && crowd != subject.count
         && let Some(factor) = shared_speed_up(results)
     {
         speed_ups.push(format!("{factor:.2} ({crowd} of them)"));

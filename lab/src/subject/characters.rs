@@ -61,6 +61,7 @@ pub const SUBJECT: Subject = Subject {
         speed_up: 1.7,
         growth: 1.2,
     },
+    together: false,
     counted: "What is timed is the characters' work alone: all our systems; for Rapier its controller's system and\n\
               the game's gravity.",
 };

@@ -2,6 +2,7 @@
 //! [`SUBJECTS`].
 
 mod characters;
+mod ragdolls;
 mod vehicles;
 
 use core::ops::Range;
@@ -10,6 +11,8 @@ use bevy::prelude::*;
 use embody_scenes::{Sim, terrain::StableId};
 
 use crate::{scene::Scene, side::Side};
+
+pub use ragdolls::{Joints, joints};
 
 /// A kind of controller, its scenes and what is demanded of it.
 pub struct Subject {
@@ -32,6 +35,9 @@ pub struct Subject {
     /// What else is measured of ours, in other scenes.
     pub variants: &'static [Variant],
     pub bounds: Bounds,
+    /// Whether they act on each other: then figures are of all of them, milliseconds per tick, each of ours
+    /// is held against the peer's of the same scene, and there are no crowds of other sizes.
+    pub together: bool,
     /// What a figure counts, for the page of results.
     pub counted: &'static str,
 }
@@ -80,7 +86,7 @@ pub struct Seen {
 }
 
 /// All subjects.
-pub const SUBJECTS: &[Subject] = &[characters::SUBJECT, vehicles::SUBJECT];
+pub const SUBJECTS: &[Subject] = &[characters::SUBJECT, vehicles::SUBJECT, ragdolls::SUBJECT];
 
 /// The subject of this name.
 pub fn find(name: &str) -> Result<&'static Subject, String> {

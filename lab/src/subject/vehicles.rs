@@ -74,6 +74,7 @@ pub const SUBJECT: Subject = Subject {
         speed_up: 1.7,
         growth: 1.2,
     },
+    together: false,
     counted: "What is timed is the vehicles' work alone: all our systems; for Rapier the update of its controllers,\n\
               which have neither engine nor gears, spinning wheels, tyre curves or anti-roll bars.",
 };

@@ -1,5 +1,7 @@
 //! Runs a small example without a window: holds its keys down for some seconds and tells where the
-//! characters and vehicles went.
+//! characters and vehicles went, and how ragdolls fell.
+
+use core::time::Duration;
 
 use bevy::{
     app::PluginGroupBuilder,
@@ -8,12 +10,17 @@ use bevy::{
     prelude::*,
     time::TimeUpdateStrategy,
 };
-use bevy_embody::prelude::*;
+use bevy_embody::{prelude::*, ragdoll::SkinReport};
 
 use super::{has_display, window_plugins};
+use crate::figures::FigureAssetsPlugins;
 
 /// Length of a run without a window, ticks.
 const TICKS: u32 = 320;
+/// The same where somebody has to fall and get up.
+const FALL_TICKS: u32 = 512;
+/// How long a figure may take to load, seconds.
+const PATIENCE: u64 = 60;
 
 /// Bevy's default plugins with a window; without one, and with a short scripted run, if the
 /// program was started with `--headless` or there is no display.
@@ -32,6 +39,7 @@ pub fn demo_plugins(title: &str) -> PluginGroupBuilder {
         .add(TransformPlugin)
         .add(InputPlugin)
         .add(AssetPlugin::default())
+        .add_group(FigureAssetsPlugins)
         .add(ScriptedRun)
 }
 
@@ -41,17 +49,46 @@ struct ScriptedRun;
 impl Plugin for ScriptedRun {
     fn build(&self, app: &mut App) {
         // Only so that the example can spawn what nobody will look at.
-        app.init_asset::<Mesh>()
-            .init_asset::<StandardMaterial>()
+        app.init_resource::<Loaded>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
             .add_systems(PreUpdate, hold_keys.after(InputSystems))
-            .add_systems(FixedLast, report);
+            .add_systems(FixedFirst, wait)
+            .add_systems(
+                FixedLast,
+                (report, report_falls).run_if(|loaded: Res<Loaded>| loaded.0.is_some()),
+            );
     }
 }
 
-fn hold_keys(mut keys: ResMut<ButtonInput<KeyCode>>, time: Res<Time<Fixed>>) {
+/// When all that has to be loaded was there, seconds of fixed time.
+#[derive(Resource, Default)]
+struct Loaded(Option<f32>);
+
+/// Gives figures the real time that they take to load.
+fn wait(
+    time: Res<Time<Fixed>>,
+    real: Res<Time<Real>>,
+    mut loaded: ResMut<Loaded>,
+    figures: Query<(), (With<RagdollFromSkin>, Without<SkinReport>)>,
+    mut exit: MessageWriter<AppExit>,
+) {
+    if loaded.0.is_some() {
+        return;
+    }
+    if figures.is_empty() {
+        loaded.0 = Some(time.elapsed_secs());
+    } else if real.elapsed() > Duration::from_secs(PATIENCE) {
+        error!("a figure has not been loaded in {PATIENCE} s");
+        exit.write(AppExit::error());
+    } else {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn hold_keys(mut keys: ResMut<ButtonInput<KeyCode>>, loaded: Res<Loaded>, time: Res<Time<Fixed>>) {
     keys.press(KeyCode::KeyW);
-    if (1.0..1.1).contains(&time.elapsed_secs()) {
+    let since = loaded.0.map_or(0.0, |began| time.elapsed_secs() - began);
+    if (1.0..1.1).contains(&since) {
         keys.press(KeyCode::Space);
     } else {
         keys.release(KeyCode::Space);
@@ -68,9 +105,15 @@ fn report(
     mut highest: Local<f32>,
     characters: Query<(Entity, &Transform, &CharacterState), With<Character>>,
     vehicles: Query<(Entity, &Transform, &VehicleTelemetry)>,
+    ragdolls: Query<(), With<Ragdoll>>,
     time: Res<Time<Fixed>>,
     mut exit: MessageWriter<AppExit>,
 ) {
+    let most = if ragdolls.is_empty() {
+        TICKS
+    } else {
+        FALL_TICKS
+    };
     *ticks += 1;
     if *ticks == 1 {
         *starts = characters
@@ -81,7 +124,7 @@ fn report(
     for (_, transform, _) in &characters {
         *highest = highest.max(transform.translation.y);
     }
-    if *ticks < TICKS {
+    if *ticks < most {
         return;
     }
     for (entity, transform, state) in &characters {
@@ -120,4 +163,33 @@ fn report(
         );
     }
     exit.write(AppExit::Success);
+}
+
+#[expect(
+    clippy::print_stdout,
+    reason = "the report is what a headless run is for"
+)]
+fn report_falls(
+    mut ticks: Local<u32>,
+    mut told: Local<Option<RagdollMode>>,
+    ragdolls: Query<(&RagdollState, &Bones), With<Ragdoll>>,
+    outputs: Query<&BoneOutput>,
+) {
+    *ticks += 1;
+    for (state, bones) in &ragdolls {
+        if *told == Some(state.mode) && *ticks != FALL_TICKS {
+            continue;
+        }
+        *told = Some(state.mode);
+        let heights = state.bones.iter().map(|bone| bone.place.position.y);
+        let (low, high) = heights.fold((f32::MAX, f32::MIN), |(a, b), y| (a.min(y), b.max(y)));
+        let fastest = outputs.iter_many(bones.iter());
+        let fastest = fastest.map(|o| o.velocity.length()).fold(0.0, f32::max);
+        println!(
+            "after {:.1} s it is {:?}: {} joints from {low:.2} m to {high:.2} m above the ground, none faster than {fastest:.2} m/s",
+            *ticks as f32 / 64.0,
+            state.mode,
+            state.bones.len(),
+        );
+    }
 }

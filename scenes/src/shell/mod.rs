@@ -16,13 +16,16 @@ mod models;
 mod overlay;
 mod player;
 mod screenshot;
+mod shoot;
+mod stops;
 mod switches;
 mod visit;
 mod window;
 
 use bevy::{diagnostic::FrameTimeDiagnosticsPlugin, prelude::*};
 use bevy_embody::{
-    EmbodyDebugPlugin, EmbodyDiagnosticsPlugin, EmbodyInspectorPlugin, VehicleDebugPlugin,
+    EmbodyDebugPlugin, EmbodyDiagnosticsPlugin, EmbodyInspectorPlugin, RagdollDebugPlugin,
+    VehicleDebugPlugin,
 };
 
 pub use demo::demo_plugins;
@@ -31,11 +34,12 @@ pub use models::{ModelOf, Models};
 pub use overlay::{Hud, HudPart};
 pub use player::{Player, player};
 pub use screenshot::{Shot, ShotPlugin};
+pub use stops::{Stop, Visit};
 pub use switches::Switches;
-pub use visit::{Start, Visit};
+pub use visit::Start;
 pub use window::{has_display, window_plugins};
 
-use crate::course::CoursePlugin;
+use crate::{course::CoursePlugin, figures::HumanPlugin};
 
 /// Cameras, input, clock keys, overlays, gizmos and panel for one [`Player`], on foot or driving.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,6 +52,7 @@ impl Plugin for ShellPlugin {
             EmbodyDiagnosticsPlugin,
             EmbodyDebugPlugin,
             VehicleDebugPlugin,
+            RagdollDebugPlugin,
             EmbodyInspectorPlugin,
         ))
         .add_plugins((
@@ -58,6 +63,7 @@ impl Plugin for ShellPlugin {
             clock::ClockPlugin,
             switches::SwitchesPlugin,
             overlay::OverlayPlugin,
+            shoot::ShootPlugin,
         ));
     }
 }
@@ -70,6 +76,7 @@ impl Plugin for CourseShellPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins((
             CoursePlugin,
+            HumanPlugin,
             course_view::CourseViewPlugin,
             models::ModelsPlugin,
             garage::GaragePlugin,

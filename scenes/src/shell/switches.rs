@@ -2,7 +2,7 @@
 
 use bevy::{input::common_conditions::input_just_pressed, prelude::*};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, input::egui_wants_any_keyboard_input};
-use bevy_embody::debug::{CharacterGizmos, InspectorPanel, VehicleGizmos};
+use bevy_embody::debug::{CharacterGizmos, InspectorPanel, RagdollGizmos, VehicleGizmos};
 
 use super::overlay::Plate;
 
@@ -72,6 +72,7 @@ fn gizmos(mut store: ResMut<GizmoConfigStore>) {
 fn show_gizmos(store: &mut GizmoConfigStore, shown: bool) {
     store.config_mut::<CharacterGizmos>().0.enabled = shown;
     store.config_mut::<VehicleGizmos>().0.enabled = shown;
+    store.config_mut::<RagdollGizmos>().0.enabled = shown;
 }
 
 fn panel(mut panel: ResMut<InspectorPanel>) {

@@ -10,10 +10,12 @@ use super::{
     garage,
     overlay::Hud,
     player::{player, player_motor},
+    stops::{Visit, asked},
 };
 use crate::{
     course::{Course, CourseNode, despawn_course, spawn_course},
     driving::{DriveRun, DriveStep, drive_stations},
+    falling::{FallRun, FallStep, fall_stations, spawn_yard},
     stations::{StationResult, StationRun, Step, stations},
 };
 
@@ -31,61 +33,6 @@ pub struct Start {
     pub play: bool,
 }
 
-/// The stations and which of them the player is at.
-#[derive(Resource, Debug)]
-pub struct Visit {
-    /// Name, description and start of each, in the order of a walk.
-    pub stops: Vec<Stop>,
-    /// The one the player was last put at.
-    pub current: usize,
-}
-
-/// A station to go to.
-#[derive(Clone, Debug)]
-pub struct Stop {
-    /// Its name.
-    pub name: String,
-    /// What it shows.
-    pub describe: String,
-    /// Pose of the foot, or of the ground below the vehicle, facing `-Z`.
-    pub start: Transform,
-    /// Whether one drives there.
-    pub drive: bool,
-}
-
-impl Default for Visit {
-    fn default() -> Self {
-        let stops = stations()
-            .into_iter()
-            .map(|station| Stop {
-                name: station.name,
-                describe: station.describe,
-                start: station.start,
-                drive: false,
-            })
-            .chain(drive_stations().into_iter().map(|station| Stop {
-                start: station.start(),
-                name: station.name,
-                describe: station.describe,
-                drive: true,
-            }))
-            .collect();
-        Self { stops, current: 0 }
-    }
-}
-
-impl Visit {
-    /// The place of the station of this name, else of the first whose name contains it.
-    pub fn find(&self, name: &str) -> Option<usize> {
-        let exact = self.stops.iter().position(|stop| stop.name == name);
-        exact.or_else(|| self.stops.iter().position(|stop| stop.name.contains(name)))
-    }
-
-    fn stop(&self) -> Option<&Stop> {
-        self.stops.get(self.current)
-    }
-}
-
 /// A script that the player's character or vehicle does by itself.
 #[derive(Resource)]
 pub(super) enum Playing {
@@ -93,13 +40,25 @@ pub(super) enum Playing {
     Walk(Box<StationRun>, Box<(Character, CharacterMotor)>),
     /// A drive.
     Drive(Box<DriveRun>),
+    /// A fall.
+    Fall(Box<FallRun>),
 }
 
+/// Those who are at the falling station that the player is at, before and after the script.
+#[derive(Resource)]
+struct Lying(Box<FallRun>);
+
 impl Playing {
+    /// Whether the player's own character or vehicle is busy.
+    pub(super) fn takes_player(playing: Option<Res<Self>>) -> bool {
+        playing.is_some_and(|playing| !matches!(*playing, Self::Fall(_)))
+    }
+
     fn tick(&mut self, world: &mut World) -> bool {
         match self {
             Self::Walk(run, _) => run.tick(world),
             Self::Drive(run) => run.tick(world),
+            Self::Fall(run) => run.tick(world),
         }
     }
 
@@ -107,6 +66,7 @@ impl Playing {
         match self {
             Self::Walk(run, _) => run.current().map(Step::describe),
             Self::Drive(run) => run.current().map(DriveStep::describe),
+            Self::Fall(run) => run.current().map(|step: &FallStep| step.describe.clone()),
         }
     }
 
@@ -114,6 +74,7 @@ impl Playing {
         match self {
             Self::Walk(run, _) => run.result(),
             Self::Drive(run) => run.result(),
+            Self::Fall(run) => run.result(),
         }
     }
 }
@@ -170,6 +131,7 @@ fn begin(
     mut visit: ResMut<Visit>,
 ) {
     spawn_course(&mut commands, &course);
+    commands.queue(|world: &mut World| spawn_yard(world, &fall_stations()));
     if let Some(name) = &start.vehicle {
         garage.choose(name);
     }
@@ -189,42 +151,6 @@ fn begin(
     }
 }
 
-/// Which key means which of ten stations.
-const DIGITS: [KeyCode; 10] = [
-    KeyCode::Digit1,
-    KeyCode::Digit2,
-    KeyCode::Digit3,
-    KeyCode::Digit4,
-    KeyCode::Digit5,
-    KeyCode::Digit6,
-    KeyCode::Digit7,
-    KeyCode::Digit8,
-    KeyCode::Digit9,
-    KeyCode::Digit0,
-];
-
-/// The station that the keys ask for, if they ask for one.
-fn asked(keys: &ButtonInput<KeyCode>, current: usize, count: usize) -> Option<usize> {
-    if count == 0 {
-        return None;
-    }
-    if keys.just_pressed(KeyCode::PageDown) {
-        return Some((current + 1) % count);
-    }
-    if keys.just_pressed(KeyCode::PageUp) {
-        return Some((current + count - 1) % count);
-    }
-    if keys.just_pressed(KeyCode::KeyR) {
-        return Some(current);
-    }
-    // With Shift the second ten, with Alt the third, with both the fourth.
-    let shift = keys.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]);
-    let alt = keys.any_pressed([KeyCode::AltLeft, KeyCode::AltRight]);
-    let tens = 10 * usize::from(shift) + 20 * usize::from(alt);
-    let digit = DIGITS.iter().position(|key| keys.just_pressed(*key))?;
-    Some(tens + digit).filter(|station| *station < count)
-}
-
 fn choose(world: &mut World) {
     let visit = world.resource::<Visit>();
     let keys = world.resource::<ButtonInput<KeyCode>>();
@@ -236,6 +162,7 @@ fn choose(world: &mut World) {
 /// Puts the player at a stop, on foot or at the wheel.
 fn go(world: &mut World, next: usize) {
     stop_playing(world);
+    clear(world);
     let mut visit = world.resource_mut::<Visit>();
     visit.current = next;
     let Some(stop) = visit.stop().cloned() else {
@@ -247,6 +174,13 @@ fn go(world: &mut World, next: usize) {
         garage::stand(world, stop.start);
     }
     look_from(world, &stop.start);
+    // Without its people there is nothing there.
+    let first = stations().len() + drive_stations().len();
+    if next >= first
+        && let Some(playing) = play_fall(world, next - first)
+    {
+        world.insert_resource(playing);
+    }
 }
 
 fn look_from(world: &mut World, start: &Transform) {
@@ -289,7 +223,20 @@ pub(super) fn stop_playing(world: &mut World) -> bool {
             true
         }
         Some(Playing::Drive(_)) => true,
+        Some(Playing::Fall(run)) => {
+            // They stay as they are, for the player to push.
+            clear(world);
+            world.insert_resource(Lying(run));
+            true
+        }
         None => false,
+    }
+}
+
+/// Sends away those of the falling station.
+fn clear(world: &mut World) {
+    if let Some(Lying(run)) = world.remove_resource::<Lying>() {
+        run.end(world);
     }
 }
 
@@ -299,11 +246,13 @@ fn play(world: &mut World) {
         return;
     }
     let current = world.resource::<Visit>().current;
-    let walks = stations().len();
+    let (walks, drives) = (stations().len(), drive_stations().len());
     let playing = if current < walks {
         play_walk(world, current)
-    } else {
+    } else if current < walks + drives {
         play_drive(world, current - walks)
+    } else {
+        play_fall(world, current - walks - drives)
     };
     if let Some(playing) = playing {
         world.insert_resource(playing);
@@ -336,6 +285,16 @@ fn play_drive(world: &mut World, place: usize) -> Option<Playing> {
     let run = DriveRun::with(world, station, figures, vehicle)?;
     look_from(world, &start);
     Some(Playing::Drive(Box::new(run)))
+}
+
+fn play_fall(world: &mut World, place: usize) -> Option<Playing> {
+    let station = fall_stations().into_iter().nth(place)?;
+    clear(world);
+    let start = station.start();
+    garage::stand(world, start);
+    let run = FallRun::begin(world, station);
+    look_from(world, &start);
+    Some(Playing::Fall(Box::new(run)))
 }
 
 /// Plays one tick; at the end tells what came of it and gives the keys back.
@@ -392,27 +351,5 @@ fn announce(
                 .push_str(&format!("  ({}{help})", garage.figures().name));
         }
         hud.detail.clone_from(&stop.describe);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_go_round_the_stations_and_never_beyond() {
-        let press = |key| {
-            let mut keys = ButtonInput::default();
-            keys.press(key);
-            keys
-        };
-        assert_eq!(asked(&press(KeyCode::PageDown), 4, 5), Some(0));
-        assert_eq!(asked(&press(KeyCode::PageUp), 0, 5), Some(4));
-        assert_eq!(asked(&press(KeyCode::Digit1), 3, 5), Some(0));
-        assert_eq!(asked(&press(KeyCode::Digit9), 3, 5), None);
-        assert_eq!(asked(&press(KeyCode::PageDown), 0, 0), None);
-        let mut keys = press(KeyCode::ShiftLeft);
-        keys.press(KeyCode::Digit2);
-        assert_eq!(asked(&keys, 0, 20), Some(11));
     }
 }

@@ -303,7 +303,14 @@ impl JointWorlds<'_, '_> {
         if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
         {
-            body.set_next_kinematic_position(Pose::from_parts(position, rotation));
+            // The engine takes the velocity from the difference of both as they are written: from the
+            // same rotation with the other sign it would be a whole turn.
+            let near = if body.rotation().dot(rotation) < 0.0 {
+                -rotation
+            } else {
+                rotation
+            };
+            body.set_next_kinematic_position(Pose::from_parts(position, near));
         }
     }
 

@@ -1,6 +1,7 @@
 //! Ragdolls: joints and limits, modes, drive to a pose, what is shown, hits, rest, getting up, limbs cut
 //! off, skins, characters that fall, life of bones.
 
+mod balance;
 mod blend;
 mod character;
 mod hits;

@@ -226,3 +226,30 @@ fn a_limb_that_is_simulated_leaves_the_others_to_the_pose() {
     let mut findings = Findings::new();
     findings.same("other bones", &paths(None), &paths(Some("arm")));
 }
+
+#[test]
+fn a_pose_written_with_the_other_sign_turns_nobody() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let entity = human(
+            &mut sim,
+            HumanoidDetail::Bodies19,
+            RagdollMode::HitBoxes,
+            Vec3::ZERO,
+        );
+        let profile = sim.get::<Ragdoll>(entity).profile;
+        let mut pose = RagdollPose::from_turns(&profile, []);
+        sim.ticks(3);
+        let mut fastest = 0.0f32;
+        for _ in 0..6 {
+            for bone in &mut pose.bones {
+                bone.rotation = -bone.rotation;
+            }
+            insert(&mut sim, entity, pose.clone());
+            sim.ticks(1);
+            fastest = fastest.max(worst(&sim, entity, |o| o.spin.length()));
+        }
+        findings.at_most(format!("{hz} Hz: spin, rad/s"), fastest, 1.0e-3);
+    }
+}

@@ -59,7 +59,7 @@ pub(super) fn plugin(app: &mut App) {
     button::<Fly>(app, |controls, down| controls.fly ^= down);
     app.add_systems(
         FixedPreUpdate,
-        (write_intent, write_drive).run_if(not(resource_exists::<Playing>)),
+        (write_intent, write_drive).run_if(not(Playing::takes_player)),
     );
 }
 
