@@ -98,40 +98,54 @@ pub fn table(subject: &Subject, results: &Results, repeats: usize) -> String {
         let digits = if work < 1.0 { 2 } else { 1 };
         table += &format!("| {} | {work:.digits$} µs | | |\n", variant.label);
     }
-    let Some((rapier, [ours, ..])) = results.sides.first().and_then(|w| w.split_last()) else {
+    let Some((rapier, ours @ [first, ..])) = results.sides.first().and_then(|w| w.split_last())
+    else {
         return table;
     };
-    let mut speed_ups: Vec<String> = speed_ups(subject, &results.sides)
-        .map(|(compared, factor)| {
-            if compared.label.is_empty() {
-                format!("{factor:.2}")
-            } else {
-                format!("{factor:.2} ({})", compared.label)
-            }
-        })
-        .collect();
+    let mut speed_ups = listed(
+        speed_ups(subject, &results.sides)
+            .map(|(compared, factor)| (compared.label, format!("{factor:.2}"))),
+    );
     if let Some(crowd) = results.shared.as_ref().map(|w| w.options.count)
         && crowd != subject.count
         && let Some(factor) = shared_speed_up(results)
     {
-        speed_ups.push(format!("{factor:.2} ({crowd} of them)"));
+        speed_ups += &format!(", {factor:.2} ({crowd} of them)");
     }
+    let of_each = |tell: fn(&World) -> String| {
+        let all = subject.compared.iter().zip(ours);
+        listed(all.map(|(compared, world)| (compared.label, tell(world))))
+    };
     table += &format!(
         "\nThere are {} {}. A second thread makes them faster by {}. Heap allocations per tick after warm-up: {}. The state after {} ticks is the same, bit for bit,\n\
          on one thread and two. {}\n\
-         A whole update of the app, physics step included, on one thread: {:.1} ms and {:.1} ms.\n\
+         A whole update of the app, physics step included, on one thread: {}, Rapier's controller {:.1} ms.\n\
          Medians of {repeats} runs in turns on {}.\n",
         subject.count,
         subject.name,
-        speed_ups.join(", "),
-        short(ours.allocations()),
-        ours.options.steps,
+        speed_ups,
+        of_each(|world| short(world.allocations())),
+        first.options.steps,
         subject.counted,
-        ours.whole() * 1e-3,
+        of_each(|world| format!("{:.1} ms", world.whole() * 1e-3)),
         rapier.whole() * 1e-3,
         machine(),
     );
     table
+}
+
+/// Values one after another, each with what it is of where that has a name.
+fn listed<'a>(all: impl Iterator<Item = (&'a str, String)>) -> String {
+    let named: Vec<String> = all
+        .map(|(label, value)| {
+            if label.is_empty() {
+                value
+            } else {
+                format!("{value} ({label})")
+            }
+        })
+        .collect();
+    named.join(", ")
 }
 
 /// A ratio to three digits.
@@ -171,6 +185,13 @@ mod tests {
         assert_eq!(short(0.0), "0");
         assert_eq!(short(0.0125), "0.0125");
         assert_eq!(short(10.0), "10");
+    }
+
+    #[test]
+    fn every_compared_kind_is_told_by_its_name() {
+        let two = [("rays", "1".to_owned()), ("cylinders", "2".to_owned())];
+        assert_eq!(listed(two.into_iter()), "1 (rays), 2 (cylinders)");
+        assert_eq!(listed([("", "3".to_owned())].into_iter()), "3");
     }
 
     #[test]
