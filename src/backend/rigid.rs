@@ -68,6 +68,15 @@ impl GroundMotion {
             Self::Free { rigid, .. } => rigid.velocity + rigid.spin.cross(point - rigid.center),
         }
     }
+
+    /// How it turns, world, radians per second.
+    pub fn spin(&self) -> Vec3 {
+        match self {
+            Self::Still => Vec3::ZERO,
+            Self::Driven { spin, .. } => *spin,
+            Self::Free { rigid, .. } => rigid.spin,
+        }
+    }
 }
 
 fn rigid(body: &RigidBody) -> Option<Rigid> {

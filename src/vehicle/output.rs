@@ -76,7 +76,9 @@ pub struct WheelContact {
     pub entity: Entity,
     /// World, metres.
     pub point: Vec3,
-    /// Unit length, world axes.
+    /// Along which the ground pushes, unit length, world axes: its normal under the wheel, on a curve
+    /// turned by as much as it turns on the way of the tick. The load times its cosine to the suspension's
+    /// axis is [`WheelState::suspension_force`].
     pub normal: Vec3,
     /// Direction of the wheel on the ground, unit length, world axes.
     pub forward: Vec3,

@@ -39,6 +39,8 @@ pub(crate) struct VehicleReport {
     pub ground_velocities: [Vec3; MOST_WHEELS],
     /// Velocities of the dynamic bodies under the wheels, at their centres of mass.
     pub ground_speeds: [Vec3; MOST_WHEELS],
+    /// How the ground under the wheels turns, their mean, world axes, radians per second.
+    pub ground_spin: Vec3,
     pub outputs: ArrayVec<WheelState, MOST_WHEELS>,
     pub events: ArrayVec<(usize, WheelEvent), 64>,
     pub shift: Option<Shift>,
@@ -68,6 +70,7 @@ impl Default for VehicleReport {
             ground_bodies: [None; MOST_WHEELS],
             ground_velocities: [Vec3::ZERO; MOST_WHEELS],
             ground_speeds: [Vec3::ZERO; MOST_WHEELS],
+            ground_spin: Vec3::ZERO,
             outputs: ArrayVec::new(),
             events: ArrayVec::new(),
             shift: None,
@@ -93,6 +96,7 @@ impl VehicleReport {
         self.shift = None;
         self.stalled = false;
         self.ground_bodies = [None; MOST_WHEELS];
+        self.ground_spin = Vec3::ZERO;
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the brakes hold each wheel with.
 
 use arrayvec::ArrayVec;
-use bevy::math::ops;
+use bevy::math::{Vec3, ops};
 
 use super::{Axes, Found, Surroundings};
 use crate::{
@@ -28,6 +28,7 @@ pub(super) fn brakes(
     axes: &Axes,
     found: &[Found],
     speed: f32,
+    ground_spin: Vec3,
 ) -> BrakeTorques {
     let mut pedal = asked.brake;
     if s.assists.hill.is_none() {
@@ -64,7 +65,7 @@ pub(super) fn brakes(
         torque: ArrayVec::new(),
         abs: ArrayVec::new(),
     };
-    let (stability, at_front) = stability(s, state, rigid, axes, speed);
+    let (stability, at_front) = stability(s, state, rigid.spin - ground_spin, axes, speed);
     telemetry.stability_control = stability.abs() > 0.0;
     for (i, wheel) in s.wheels.iter().enumerate() {
         let is_front = is_front(wheel.attachment.z);
@@ -106,11 +107,12 @@ pub(super) fn brakes(
 
 /// Brake torque that stability control wants, newton-metres, positive on the right side; and whether at
 /// the front: who turns too much is held by an outer front wheel, who turns too little by an inner rear
-/// one, so that the axle that slides keeps its grip.
+/// one, so that the axle that slides keeps its grip. `spin` and `speed` are against the ground: a turntable
+/// takes the vehicle round without any slip.
 fn stability(
     s: &Surroundings,
     state: &VehicleState,
-    rigid: &Rigid,
+    spin: Vec3,
     axes: &Axes,
     speed: f32,
 ) -> (f32, bool) {
@@ -129,7 +131,7 @@ fn stability(
     // To the right positive. A turn can never be tighter than the grip of the road, about 1 g.
     let most = 9.0 / speed;
     let wanted = (speed * ops::tan(state.steer_angle) / wheelbase).clamp(-most, most);
-    let turning = -rigid.spin.dot(axes.up);
+    let turning = -spin.dot(axes.up);
     let error = wanted - turning;
     let beyond = error.abs() - control.tolerance;
     if beyond <= 0.0 {

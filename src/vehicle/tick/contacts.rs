@@ -25,6 +25,9 @@ const SLOW: f32 = 2.0;
 /// takes its part, but how much of it only the physics step knows.
 const LIGHTEST: f32 = 8.0;
 
+/// A spring that lies flatter on the ground counts as one at this cosine.
+const LEAST_COSINE: f32 = 0.05;
+
 pub(super) fn build<'a>(
     s: &Surroundings<'a, '_, '_>,
     config: &Vehicle,
@@ -36,6 +39,7 @@ pub(super) fn build<'a>(
     contacts: &mut ArrayVec<Contact<'a>, MOST_WHEELS>,
 ) {
     let own_mass = rigid.mass;
+    let (mut ground_spin, mut standing) = (Vec3::ZERO, 0.0f32);
     let mut moved = [Vec3::ZERO; MOST_WHEELS];
     let mut falls = [Vec3::ZERO; MOST_WHEELS];
     let bend = bend(s, found, rigid.velocity - state.ground_velocity);
@@ -76,6 +80,8 @@ pub(super) fn build<'a>(
         if !matches!(motion, GroundMotion::Free { .. }) {
             let turned = bend.turn((own_velocity - ground_start) * ahead);
             touch.normal = (touch.normal + turned).normalize_or(touch.normal);
+            // What the spring takes up along its axis is then what the ground does along the normal.
+            touch.cosine = (-touch.normal.dot(f.down)).max(LEAST_COSINE);
         }
         let same_ground = last.ground == Some(touch.entity);
         let ground = match motion {
@@ -112,6 +118,14 @@ pub(super) fn build<'a>(
         };
         report.ground_bodies[i] = body;
         report.ground_velocities[i] = ground_start;
+        // A loose stone that rolls under a wheel is not the ground that the vehicle turns on.
+        let share = match motion {
+            GroundMotion::Free { rigid, .. } => rigid.mass / (rigid.mass + own_mass),
+            _ => 1.0,
+        };
+        let belt = road.map_or(Vec3::ZERO, |(road, (_, rotation))| rotation * road.angular);
+        ground_spin += (motion.spin() + belt) * share;
+        standing += 1.0;
         let Some(along) = touch.normal.cross(f.axle).try_normalize() else {
             continue;
         };
@@ -176,6 +190,7 @@ pub(super) fn build<'a>(
             patch: None,
         });
     }
+    report.ground_spin = ground_spin / standing.max(1.0);
     for (i, ground) in grounds.iter_mut().enumerate() {
         ground.begin(moved[i], falls[i]);
     }
@@ -203,10 +218,10 @@ fn ground_body(entity: Entity, rigid: &Rigid, hold: Hold, own_mass: f32) -> Grou
     let inverse_inertia = rigid.inverse_inertia;
     let (inverse_mass, inverse_inertia) = match hold {
         Hold::Free => (inverse_mass, inverse_inertia),
-        Hold::Floor(normal) => {
-            let along = Mat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
+        Hold::Floor(floor) => {
+            let along = Mat3::from_cols(floor * floor.x, floor * floor.y, floor * floor.z);
             let across = Mat3::IDENTITY - along;
-            let turn = normal.dot(inverse_inertia * normal);
+            let turn = floor.dot(inverse_inertia * floor);
             (across * inverse_mass * across, along * turn)
         }
         Hold::Joints => {

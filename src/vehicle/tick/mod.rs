@@ -214,7 +214,16 @@ pub(super) fn run(
 
     scratch.spin.clear();
     let brakes = brakes::brakes(
-        s, config, state, telemetry, &asked, &rigid, &axes, &found, speed,
+        s,
+        config,
+        state,
+        telemetry,
+        &asked,
+        &rigid,
+        &axes,
+        &found,
+        speed,
+        report.ground_spin,
     );
     let line = driveline::build(
         s,

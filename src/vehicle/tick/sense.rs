@@ -31,6 +31,8 @@ const _: () = assert!(MOST_WHEELS <= MOST_BOXES, "a box for each wheel");
 pub(in crate::vehicle) struct Found {
     /// Along the axle to the right, unit length, world axes.
     pub axle: Vec3,
+    /// The way of the suspension, unit length, world axes.
+    pub down: Vec3,
     pub law: Law,
     /// Metres, 0 at droop; negative when the ground is below the reach.
     pub compression: f32,
@@ -91,6 +93,7 @@ pub(super) fn sense(
             };
             let mut found = Found {
                 axle: frame.axle,
+                down: frame.down,
                 law,
                 compression: 0.0,
                 angle: angles[i],

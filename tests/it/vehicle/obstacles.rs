@@ -76,7 +76,7 @@ fn a_wheel_follows_a_pothole_no_faster_than_its_mass_lets_it() {
     // Half a metre at 15 m/s lasts 33 ms. A hub of 25 kg under at most k x / m = 147 + 9.81 m/s² falls by
     // 8.6 cm in it, one without mass the whole 15 cm.
     let mut found = Findings::new();
-    for hz in [60.0, 120.0, 240.0] {
+    for hz in RATES {
         let run = |unsprung: f32| {
             let mut sim = Sim::new(hz);
             sim.block(Vec3::new(0.0, -0.5, 60.0), Vec3::new(20.0, 1.0, 140.0));

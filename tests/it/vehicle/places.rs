@@ -248,6 +248,38 @@ fn a_loop_is_driven_through_by_who_is_fast_enough() {
 }
 
 #[test]
+fn on_a_curve_the_load_along_the_published_normal_is_what_the_spring_gives() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        sim.block(Vec3::new(0.0, -0.5, 60.0), Vec3::new(30.0, 1.0, 120.0));
+        sim.fixed(loop_of(20.0), Transform::default());
+        let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 20.0));
+        sim.seconds(1.0);
+        car.roll(&mut sim, Vec3::NEG_Z * 20.0);
+        let (mut off, mut carried) = (0.0f32, 0);
+        for _ in 0..(1.5 * hz) as usize {
+            let axis = car.pose(&sim).rotation * Vec3::Y;
+            sim.ticks(1);
+            for wheel in car.all(&sim) {
+                let Some(contact) = wheel.contact else {
+                    continue;
+                };
+                let along = wheel.load * contact.normal.dot(axis);
+                off = off.max((along / wheel.suspension_force - 1.0).abs());
+                carried += 1;
+            }
+        }
+        found.at_most(format!("{hz} Hz: apart"), off, 1.0e-5);
+        found.at_least(
+            format!("{hz} Hz: contacts"),
+            carried as f32,
+            2.0 * hz as f32,
+        );
+    }
+}
+
+#[test]
 fn wheels_spin_up_in_the_air_and_the_car_lands_on_them() {
     let mut found = Findings::new();
     for hz in RATES {
