@@ -27,6 +27,12 @@ impl Chassis {
     }
 }
 
+/// Change of velocity that a push must be good for, alone, to tell whether a floor holds against it, metres
+/// per second.
+const TELLING: f32 = 0.02;
+/// Friction of floors, as far as it is taken for granted, dimensionless.
+const FRICTION: f32 = 0.5;
+
 /// A dynamic body under wheels: how the tick's impulses change it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroundBody {
@@ -41,6 +47,8 @@ pub(crate) struct GroundBody {
     /// As far as it gives way: world axes, 1/kg and 1/(kg·m²).
     pub inverse_mass: Mat3,
     pub inverse_inertia: Mat3,
+    /// Normal of the floor that it lies flat on, whose friction answers within the tick.
+    pub flat_on: Option<Vec3>,
     /// Impulse and turning impulse of the wheels in the last tick.
     pub pushed: Vec3,
     pub turned: Vec3,
@@ -57,7 +65,9 @@ impl GroundBody {
     /// other vehicles answer the wheels as they will. It is taken from the last tick: `moved` is by how
     /// much that tick changed the body's velocity, `fall` what gravity gives it in a tick. As far as the
     /// wheels' push and gravity show up in it, the body is free; as far as they do not, others take
-    /// them up, and go on to.
+    /// them up, and go on to: joints and other vehicles as much as in the last tick, a floor by its
+    /// friction the same part of whatever comes. Were that left out, the tyre on a light plate would press
+    /// against the plate's own mass, and come to the force that holds the wheel only after many ticks.
     pub fn begin(&mut self, moved: Vec3, fall: Vec3) {
         // Along what cannot give way nothing shows.
         let gives = self.inverse_mass * self.mass;
@@ -68,6 +78,18 @@ impl GroundBody {
         } else {
             0.0
         };
+        // Beyond the friction of the floor it slides.
+        let held = self.flat_on.is_some_and(|normal| {
+            let press = -self.pushed.dot(normal);
+            self.pushed.reject_from_normalized(normal).length() < FRICTION * press
+        });
+        if held && size > TELLING * TELLING {
+            self.inverse_mass *= free;
+            self.inverse_inertia *= free;
+            self.velocity = gives * fall * free;
+            self.spin = Vec3::ZERO;
+            return;
+        }
         self.velocity = gives * fall * free - self.inverse_mass * self.pushed * (1.0 - free);
         self.spin = self.inverse_inertia * self.turned * (free - 1.0);
     }

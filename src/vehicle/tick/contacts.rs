@@ -25,6 +25,10 @@ const SLOW: f32 = 2.0;
 /// takes its part, but how much of it only the physics step knows.
 const LIGHTEST: f32 = 8.0;
 
+/// A body lies flat on a floor if its face is turned by less than this cosine: whatever presses on it stays
+/// within the friction of the floor.
+const FLAT: f32 = 0.97;
+
 /// A spring that lies flatter on the ground counts as one at this cosine.
 const LEAST_COSINE: f32 = 0.05;
 
@@ -89,7 +93,7 @@ pub(super) fn build<'a>(
                 let index = grounds.iter().position(|g| g.entity == body);
                 let index = index.unwrap_or_else(|| {
                     let hold = s.view.hold(body, s.handle, touch.normal, touch.point);
-                    grounds.push(ground_body(body, &rigid, hold, own_mass));
+                    grounds.push(ground_body(body, &rigid, hold, touch.normal, own_mass));
                     grounds.len() - 1
                 });
                 let arm = touch.point - rigid.center;
@@ -213,7 +217,13 @@ fn bend(s: &Surroundings, found: &[Found], velocity: Vec3) -> Bend {
 }
 
 /// A body under a wheel as far as it gives way: along what holds it, it does not.
-fn ground_body(entity: Entity, rigid: &Rigid, hold: Hold, own_mass: f32) -> GroundBody {
+fn ground_body(
+    entity: Entity,
+    rigid: &Rigid,
+    hold: Hold,
+    normal: Vec3,
+    own_mass: f32,
+) -> GroundBody {
     let inverse_mass = Mat3::from_diagonal(rigid.inverse_mass);
     let inverse_inertia = rigid.inverse_inertia;
     let (inverse_mass, inverse_inertia) = match hold {
@@ -241,6 +251,10 @@ fn ground_body(entity: Entity, rigid: &Rigid, hold: Hold, own_mass: f32) -> Grou
         },
         inverse_mass,
         inverse_inertia,
+        flat_on: match hold {
+            Hold::Floor(floor) if floor.dot(normal) > FLAT => Some(floor),
+            _ => None,
+        },
         pushed: Vec3::ZERO,
         turned: Vec3::ZERO,
     }

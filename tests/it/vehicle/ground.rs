@@ -68,18 +68,25 @@ fn a_light_plate_on_the_floor_carries_its_wheel() {
         let mut lowest = f32::MAX;
         let mut highest = f32::MIN;
         sim.seconds(3.0);
-        for _ in 0..(3.0 * hz) as usize {
+        let (mut rocks, mut swings) = (0.0f32, 0.0f32);
+        for tick in 0..(5.0 * hz) as usize {
             sim.ticks(1);
             let y = car.pose(&sim).translation.y;
             lowest = lowest.min(y);
             highest = highest.max(y);
+            if tick >= (3.0 * hz) as usize {
+                let load: f32 = car.loads(&sim).iter().sum();
+                rocks = rocks.max((load / (MASS * G) - 1.0).abs());
+                swings = swings.max(car.wheel(&sim, 0).force.x.abs());
+            }
         }
         found.at_least(format!("{hz} Hz: lowest"), lowest, HEIGHT - 0.02);
         found.at_most(format!("{hz} Hz: highest"), highest, HEIGHT + 0.05);
         let contact = car.wheel(&sim, 0).contact.map(|c| c.entity);
         found.holds(format!("{hz} Hz: on the plate"), contact == Some(plate));
-        let load: f32 = car.loads(&sim).iter().sum();
-        found.within(format!("{hz} Hz: loads"), load, MASS * G, 0.005);
+        found.at_most(format!("{hz} Hz: loads off the weight"), rocks, 0.001);
+        // Nobody drives or brakes.
+        found.at_most(format!("{hz} Hz: swings to and fro with"), swings, 100.0);
     }
 }
 
