@@ -89,7 +89,8 @@ pub(super) fn build<'a>(
         }
         let same_ground = last.ground == Some(touch.entity);
         let ground = match motion {
-            GroundMotion::Free { body, rigid } if !rigid.sleeping => {
+            // One that sleeps lies still as long as what it carries does not change; a new push wakes it.
+            GroundMotion::Free { body, rigid } if !rigid.sleeping || !same_ground => {
                 let index = grounds.iter().position(|g| g.entity == body);
                 let index = index.unwrap_or_else(|| {
                     let hold = s.view.hold(body, s.handle, touch.normal, touch.point);
