@@ -9,7 +9,7 @@ use bevy::prelude::*;
 
 use super::{
     math::rotation::{from_rotation_vector, swing_point, swing_twist, twist_angle, twist_of_angle},
-    plan::PlannedBone,
+    plan::{PlannedBone, bounds},
     profile::JointKind,
 };
 use crate::backend::joints::AimedRows;
@@ -18,7 +18,7 @@ use crate::backend::joints::AimedRows;
 const NARROWEST: f32 = 0.004;
 
 /// How far ahead a turn is looked at, radians.
-const FARTHEST: f32 = 0.2;
+const FARTHEST: f32 = 0.4;
 
 /// A range drawn in on the side that is approached.
 fn ahead(range: [f32; 2], rate: f32, substep: f32) -> [f32; 2] {
@@ -80,7 +80,7 @@ impl PlannedBone {
                 if let JointKind::Ball { twist, .. } = self.joint.kind {
                     aimed.rotation2 = self.frames.rotation2 * twist_of_angle(-shift);
                     let rate = spin.dot(axis + own) / (1.0 + axis.dot(own)).max(0.1);
-                    aimed.turns[0] = Some(ahead([twist.x, twist.y], rate, substep));
+                    aimed.turns[0] = bounds(twist).map(|range| ahead(range, rate, substep));
                 }
             }
             JointKind::Hinge { min, max } | JointKind::Pivot { min, max } => {
