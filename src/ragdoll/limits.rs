@@ -18,7 +18,7 @@ use crate::backend::joints::AimedRows;
 const NARROWEST: f32 = 0.004;
 
 /// How far ahead a turn is looked at, radians.
-const FARTHEST: f32 = 0.4;
+const FARTHEST: f32 = 0.2;
 
 /// A range drawn in on the side that is approached.
 fn ahead(range: [f32; 2], rate: f32, substep: f32) -> [f32; 2] {

@@ -97,14 +97,10 @@ fn worst_of(
     edit::<BoneControl>(&mut sim, limb, |c| c.simulated = true);
     sim.ticks(1);
     // Not in the tick of the switch, which keeps the velocity that it had: none.
-    insert(
-        &mut sim,
-        limb,
-        bevy_rapier3d::prelude::Velocity {
-            linear: Vec3::ZERO,
-            angular: spin,
-        },
-    );
+    if spin != Vec3::ZERO {
+        let velocity = bevy_rapier3d::prelude::Velocity::angular(spin);
+        insert(&mut sim, limb, velocity);
+    }
     insert(
         &mut sim,
         limb,
