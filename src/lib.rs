@@ -95,7 +95,7 @@ pub mod prelude {
     #[doc(hidden)]
     pub use crate::bridge::{
         BecomeRagdoll, BodyPhase, CharacterRagdoll, CharacterRagdollPlugin, CharacterRagdollState,
-        FallCommands, FellDown, Recover, StoodUp,
+        CharacterRagdollSystems, FallCommands, FellDown, Recover, StoodUp,
     };
     #[cfg(feature = "character")]
     #[doc(hidden)]

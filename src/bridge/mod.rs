@@ -6,5 +6,5 @@ mod fall;
 #[cfg(all(feature = "character", feature = "ragdoll"))]
 pub use fall::{
     BecomeRagdoll, BodyPhase, CharacterRagdoll, CharacterRagdollPlugin, CharacterRagdollState,
-    FallCommands, FellDown, Recover, StoodUp,
+    CharacterRagdollSystems, FallCommands, FellDown, Recover, StoodUp,
 };

@@ -87,13 +87,13 @@ pub(super) struct Skeletons<'w, 's> {
 }
 
 impl Skeletons<'_, '_> {
-    /// Where a bone is asked to be by the animation of its joint, world.
-    pub fn asked(&self, joint: &BoneJoint) -> Option<BonePose> {
+    /// Where a bone is asked to be by the animation of its joint, world, and the joint's scale.
+    pub fn asked(&self, joint: &BoneJoint) -> Option<(BonePose, Vec3)> {
         let world = climb(joint.joint, |entity| {
             let (transform, kept, parent) = self.joints.get(entity).ok()?;
             Some((animated(transform, kept), parent.map(ChildOf::parent)))
         })?;
-        Some(joint.offset.seen_from(&world))
+        Some((joint.offset.seen_from(&world), world.scale))
     }
 }
 

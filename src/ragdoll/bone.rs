@@ -61,4 +61,6 @@ pub(crate) struct BoneTies {
     pub pin: Option<JointHandle>,
     /// Keeps it from colliding with the bone that it was cut off from.
     pub apart: Option<JointHandle>,
+    /// Whether it was told that the pose asked for is none.
+    pub told: bool,
 }

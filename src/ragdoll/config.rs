@@ -17,7 +17,8 @@ use super::{
 /// [`BoneOutput`](super::BoneOutput).
 ///
 /// A value out of its range is refused with one warning; the ragdoll then has no bones until it is
-/// mended. Changing the component builds the bones anew.
+/// mended. Another profile, mass, conditioning, damping or number of iterations builds the bones anew;
+/// everything else is used from the next tick on.
 #[derive(Component, Reflect, Clone, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -108,6 +109,15 @@ impl Default for Ragdoll {
 }
 
 impl Ragdoll {
+    /// Whether bones made of the other are those of this.
+    pub(super) fn has_bones_of(&self, other: &Self) -> bool {
+        self.mass == other.mass
+            && self.conditioning == other.conditioning
+            && self.damping == other.damping
+            && self.iterations == other.iterations
+            && self.profile == other.profile
+    }
+
     /// A figure of this plan and mass.
     pub fn new(profile: RagdollProfile, mass: f32) -> Self {
         Self {

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::backend::{
     handles::{RapierColliderHandle, RapierContextEntityLink, RapierRigidBodyHandle},
-    joints::JointWorlds,
+    joints::{JointIterations, JointWorlds, WorldSteps},
     world_mut::PhysicsWorldsMut,
 };
 
@@ -58,11 +58,11 @@ type TiedBone<'a> = (
 /// Ties new bones to their parents.
 pub(super) fn tie(
     mut worlds: JointWorlds,
-    mut ragdolls: Query<(&Ragdoll, &mut RagdollPlan, &Bones)>,
+    mut ragdolls: Query<(&mut RagdollPlan, &Bones)>,
     mut bones: Query<TiedBone>,
     mut handles: Local<Vec<Option<(RapierContextEntityLink, RapierRigidBodyHandle)>>>,
 ) {
-    for (config, mut plan, tied) in &mut ragdolls {
+    for (mut plan, tied) in &mut ragdolls {
         if plan.told || plan.bones.is_empty() {
             continue;
         }
@@ -73,8 +73,10 @@ pub(super) fn tie(
                 *slot = Some((*link, *handle));
             }
         }
-        // All or none: the first tick has them all.
-        if handles.iter().any(Option::is_none) {
+        // All that there are or none: the first tick has them all. What was despawned since is not waited
+        // for.
+        let known = handles.iter().flatten().count();
+        if known < tied.iter().count() {
             continue;
         }
         for entity in tied.iter() {
@@ -84,7 +86,6 @@ pub(super) fn tie(
             if bone.order >= handles.len() {
                 continue;
             }
-            worlds.need_iterations(link, usize::from(config.iterations.max(1)));
             let parent = plan.bones[bone.order].parent.and_then(|p| handles[p]);
             if let Some((_, parent)) = parent {
                 sever::tie_bone(
@@ -107,6 +108,34 @@ pub(super) fn tie(
     }
 }
 
+/// What a bone cannot be asked for.
+struct Unsound {
+    field: &'static str,
+    pose: BonePose,
+    scale: Vec3,
+}
+
+impl Unsound {
+    fn tell(&self, ragdoll: Entity, bone: Option<&Name>) {
+        let name = bone.map_or("", Name::as_str);
+        let field = self.field;
+        if self.pose.is_sound() {
+            tracing::warn!(
+                "{ragdoll}: ragdoll: bone \"{name}\": {field} has the scale {}, but needs one above 0: a \
+                 mirrored pose is none; the bone keeps its last one",
+                self.scale
+            );
+        } else {
+            tracing::warn!(
+                "{ragdoll}: ragdoll: bone \"{name}\": {field} is at {} with the rotation {}, which is no \
+                 pose; the bone keeps its last one",
+                self.pose.position,
+                self.pose.rotation
+            );
+        }
+    }
+}
+
 /// Where a bone is asked to be at the end of the tick.
 fn asked(
     helper: &TransformHelper,
@@ -117,20 +146,35 @@ fn asked(
     root: &Transform,
     plan: &RagdollPlan,
     order: usize,
-) -> Option<BonePose> {
-    let pose = match (joint, source) {
-        (Some(joint), _) => skeletons.asked(joint)?,
+) -> Option<Result<BonePose, Unsound>> {
+    let (field, pose, scale) = match (joint, source) {
+        (Some(joint), _) => {
+            let (pose, scale) = skeletons.asked(joint)?;
+            ("BoneJoint::joint", pose, scale)
+        }
         (None, Some(source)) => {
             let global = helper.compute_global_transform(source.0).ok()?;
-            let (_, rotation, position) = global.to_scale_rotation_translation();
-            BonePose { position, rotation }
+            let (scale, rotation, position) = global.to_scale_rotation_translation();
+            ("BoneSource", BonePose { position, rotation }, scale)
         }
         (None, None) => {
             let bone = &plan.bones[order];
-            (pose.bones.get(bone.index).unwrap_or(&bone.bind)).seen_from(root)
+            let asked = *pose.bones.get(bone.index).unwrap_or(&bone.bind);
+            // As it was written: seen from elsewhere a length of 2 would be evened out.
+            let pose = if asked.is_sound() {
+                asked.seen_from(root)
+            } else {
+                asked
+            };
+            ("RagdollPose::bones", pose, Vec3::ONE)
         }
     };
-    pose.is_sound().then_some(pose)
+    // What is not a number is not above 0.
+    Some(if pose.is_sound() && scale.min_element() > 0.0 {
+        Ok(pose)
+    } else {
+        Err(Unsound { field, pose, scale })
+    })
 }
 
 /// Switches, drives and sends every bone.
@@ -145,7 +189,7 @@ pub(super) fn drive(
         &Ragdoll,
         &RagdollIntent,
         &RagdollPose,
-        &RagdollPlan,
+        &mut RagdollPlan,
         &mut RagdollState,
         &Bones,
         Option<&GetUp>,
@@ -155,6 +199,7 @@ pub(super) fn drive(
         &BoneControl,
         Option<&BoneJoint>,
         Option<&BoneSource>,
+        Option<&Name>,
     )>,
     mut slots: Local<Vec<Option<Slot>>>,
     mut ways: Local<Vec<Option<Way>>>,
@@ -165,7 +210,7 @@ pub(super) fn drive(
     if !(dt > 0.0) {
         return;
     }
-    for (entity, config, intent, pose, plan, mut state, tied, clips) in &mut ragdolls {
+    for (entity, config, intent, pose, mut plan, mut state, tied, clips) in &mut ragdolls {
         let count = plan.bones.len();
         if count == 0 || !plan.told || state.bones.len() != count {
             continue;
@@ -182,6 +227,10 @@ pub(super) fn drive(
         };
         let (_, rotation, translation) = root.to_scale_rotation_translation();
         let root = Transform::from_translation(translation).with_rotation(rotation);
+        state.bypass_change_detection().figure = BonePose {
+            position: translation,
+            rotation,
+        };
         let driven = matches!(
             mode,
             RagdollMode::Powered | RagdollMode::Partial | RagdollMode::HitBoxes
@@ -189,7 +238,9 @@ pub(super) fn drive(
         slots.clear();
         slots.resize(count, None);
         for bone in tied.iter() {
-            let Ok(((is, link, handle, _), control, joint, source)) = bones.get(bone) else {
+            let Ok(((is, link, handle, mut ties), control, joint, source, name)) =
+                bones.get_mut(bone)
+            else {
                 continue;
             };
             if is.order >= count {
@@ -200,18 +251,32 @@ pub(super) fn drive(
             };
             let known = state.bones[is.order].target;
             let asked = asked(
-                &helper, &skeletons, joint, source, pose, &root, plan, is.order,
+                &helper, &skeletons, joint, source, pose, &root, &plan, is.order,
             );
+            let ties = ties.bypass_change_detection();
+            let asked = match asked {
+                Some(Err(unsound)) => {
+                    if !ties.told {
+                        unsound.tell(entity, name);
+                    }
+                    ties.told = true;
+                    None
+                }
+                sound => {
+                    ties.told = false;
+                    sound.and_then(Result::ok)
+                }
+            };
             let at = || plan.bones[is.order].bind.seen_from(&root);
             let target = asked.or(known).unwrap_or_else(at);
-            let cut = sever::is_cut(plan, &state, is.order);
+            let cut = sever::is_cut(&plan, &state, is.order);
             slots[is.order] = Some(Slot {
                 severed: state.bones[is.order].severed,
                 entity: bone,
                 link: *link,
                 handle: *handle,
                 motion,
-                body: wanted(mode, control, plan, &state, is.order),
+                body: wanted(mode, control, &plan, &state, is.order),
                 target,
                 before: known.filter(|_| !thaws).unwrap_or(target),
                 strength: tick::strength(driven && !cut, intent.strength, control)
@@ -225,14 +290,29 @@ pub(super) fn drive(
                 anew: false,
             });
         }
+        let plan = plan.bypass_change_detection();
+        for (i, slot) in slots.iter().enumerate() {
+            if slot.is_none() && !plan.lost[i] {
+                plan.lost[i] = true;
+                let name = &config.profile.bones[plan.bones[i].index].name;
+                tracing::warn!(
+                    "{entity}: ragdoll: bone \"{name}\" is gone, but nobody said so by Dismember; what \
+                     hung on it hangs on nothing"
+                );
+            }
+        }
+        let plan: &RagdollPlan = plan;
         if mode == RagdollMode::GettingUp {
             let state = state.bypass_change_detection();
             rise::wait_for_clip(clips, plan, state, &root, &mut slots);
+        } else if state.rise.is_some() {
+            state.bypass_change_detection().rise = None;
         }
         let Some(first) = slots.iter().flatten().next() else {
             continue;
         };
-        let Some((gravity, true)) = worlds.gravity(&first.link) else {
+        let link = first.link;
+        let Some((gravity, true)) = worlds.gravity(&link) else {
             continue;
         };
         let parent_of = |i: usize| tick::bearer(plan, &slots, i).and_then(|p| slots[p].as_ref());
@@ -260,24 +340,27 @@ pub(super) fn drive(
             _ => config.fade,
         };
         ways.clear();
-        for (i, slot) in slots.iter().enumerate() {
-            let way = slot.as_ref().map(|slot| {
+        for i in 0..count {
+            let was = state.bones[i].body;
+            let way = slots[i].as_ref().map(|slot| {
                 let parent = tick::bearer(plan, &slots, i).and_then(|p| ways[p].as_ref());
                 tick::change_over(&mut worlds, slot, parent, &mut state.bones[i], fade, dt)
             });
             ways.push(way);
+            // What was switched is where it was put, as fast as it was made.
+            if let Some(slot) = &mut slots[i]
+                && slot.body != was
+                && let Some(motion) = worlds.motion(&slot.link, &slot.handle)
+            {
+                slot.motion = motion;
+            }
         }
         if !awake {
             continue;
         }
-        let substeps = worlds.substeps(&first.link) + plan.extra_substeps as f32;
+        let substeps = worlds.substeps(&link) + plan.extra_substeps as f32;
         let step = (dt, substeps);
-        let pins = slots
-            .iter()
-            .flatten()
-            .filter(|s| s.pin > 0.0)
-            .count()
-            .max(1);
+        weight::share_pins(plan, &slots, &mut carried);
         for (i, slot) in slots.iter().enumerate() {
             let Some(slot) = slot else { continue };
             if let Ok(((.., mut ties), ..)) = bones.get_mut(slot.entity) {
@@ -287,7 +370,7 @@ pub(super) fn drive(
                     config,
                     plan,
                     slot,
-                    1.0 / pins as f32,
+                    carried[i].pinned,
                     ties,
                     step,
                 );
@@ -327,7 +410,8 @@ pub(super) fn drive(
         let state = state.bypass_change_detection();
         hit::deliver(&mut worlds, config, plan, &slots, state);
         if driven {
-            weight::bear_weight(config, plan, &slots, gravity, &mut carried, &mut forces.0);
+            let carried = &mut carried;
+            weight::bear_weight(config, plan, &slots, gravity, carried, &mut forces.0);
         }
     }
 }
@@ -337,6 +421,27 @@ pub(super) fn apply_forces(mut worlds: PhysicsWorldsMut, forces: Res<BoneForces>
     for f in &forces.0 {
         worlds.force_body(&f.link, &f.handle, f.force, f.torque, false);
     }
+}
+
+/// Lets each world go over the joints as often as its ragdolls ask, and as before when they are gone.
+pub(super) fn set_iterations(
+    mut worlds: WorldSteps,
+    mut known: ResMut<JointIterations>,
+    ragdolls: Query<(&Ragdoll, &Bones)>,
+    bones: Query<&RapierContextEntityLink, With<RagdollBone>>,
+) {
+    known.set(&mut worlds, |world| {
+        let asked = ragdolls.iter().map(|(config, tied)| {
+            let mut links = bones.iter_many(tied.iter());
+            let here = links.next().is_some_and(|link| link.0 == world);
+            if here {
+                usize::from(config.iterations)
+            } else {
+                0
+            }
+        });
+        asked.max().unwrap_or(0)
+    });
 }
 
 /// Takes the tick's forces off the bodies again.

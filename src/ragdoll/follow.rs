@@ -4,16 +4,20 @@
 use bevy::{math::ops, prelude::*};
 
 use super::{
+    intent::RagdollMode,
     math::rotation::from_rotation_vector,
     plan::RagdollPlan,
+    pose::BonePose,
     sever::is_cut,
     state::{BoneBody, RagdollState},
 };
 
-/// On a ragdoll: while its root is simulated, its entity is moved along after each tick: to the height of
-/// its lowest bone, below the root, facing as the root does.
+/// On a ragdoll: while it is limp, or powered without a pin, its entity is moved along after each tick: to
+/// the height of its lowest bone, below the root, facing as the root does.
 ///
-/// Only for ragdolls at the top level of the world; one that is pinned stays.
+/// Only for ragdolls at the top level of the world. Where bones are sent to places in the world
+/// ([`Keyframed`](super::RagdollMode::Keyframed), pins, [`Partial`](super::RagdollMode::Partial)), the
+/// entity stays: it says where those places are.
 #[derive(Component, Reflect, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 pub struct FollowRoot;
@@ -41,11 +45,8 @@ pub(crate) fn lowest(plan: &RagdollPlan, state: &RagdollState, up: Vec3) -> f32 
             continue;
         }
         let place = state.bones[i].place;
-        let (a, b, radius) = bone.shape.core();
-        for end in [a, b] {
-            let point = place.position + place.rotation * end;
-            low = low.min(point.dot(up) - radius);
-        }
+        let down = place.rotation.inverse() * -up;
+        low = low.min(place.position.dot(up) - bone.shape.reach(down));
     }
     low
 }
@@ -53,16 +54,17 @@ pub(crate) fn lowest(plan: &RagdollPlan, state: &RagdollState, up: Vec3) -> f32 
 /// Moves figures to their roots.
 pub(super) fn follow(
     mut ragdolls: Query<
-        (&mut Transform, &RagdollPlan, &RagdollState),
+        (&mut Transform, &RagdollPlan, &mut RagdollState),
         (With<FollowRoot>, Without<ChildOf>),
     >,
 ) {
     let up = Vec3::Y;
-    for (mut transform, plan, state) in &mut ragdolls {
+    for (mut transform, plan, mut state) in &mut ragdolls {
         let (Some(planned), Some(root)) = (plan.bones.first(), state.bones.first()) else {
             continue;
         };
-        if root.body != BoneBody::Dynamic || state.bones.len() != plan.bones.len() {
+        let goes = matches!(state.mode, RagdollMode::Limp | RagdollMode::Powered);
+        if !goes || root.body != BoneBody::Dynamic || state.bones.len() != plan.bones.len() {
             continue;
         }
         // A pin that is asked for holds only while the figure is driven.
@@ -73,7 +75,7 @@ pub(super) fn follow(
         let ahead = heading(place.rotation, planned.bind.rotation, up)
             .unwrap_or(transform.rotation * Vec3::NEG_Z);
         let rotation = facing(ahead);
-        let low = lowest(plan, state, up);
+        let low = lowest(plan, &state, up);
         let offset = rotation * planned.bind.position;
         let translation = Vec3::new(
             place.position.x - offset.x,
@@ -81,6 +83,10 @@ pub(super) fn follow(
             place.position.z - offset.z,
         );
         if translation.is_finite() && rotation.is_finite() {
+            state.bypass_change_detection().figure = BonePose {
+                position: translation,
+                rotation,
+            };
             transform.set_if_neq(Transform {
                 translation,
                 rotation,

@@ -9,13 +9,16 @@ use bevy::prelude::*;
 
 use super::{
     math::rotation::{from_rotation_vector, swing_point, swing_twist, twist_angle, twist_of_angle},
-    plan::PlannedBone,
+    plan::{PlannedBone, bounds},
     profile::JointKind,
 };
 use crate::backend::joints::AimedRows;
 
 /// The narrowest cone that is asked for, radians.
 const NARROWEST: f32 = 0.004;
+
+/// How far ahead a turn is looked at, radians.
+const FARTHEST: f32 = 0.2;
 
 /// A range drawn in on the side that is approached.
 fn ahead(range: [f32; 2], rate: f32, substep: f32) -> [f32; 2] {
@@ -60,8 +63,10 @@ impl PlannedBone {
         match self.joint.kind {
             JointKind::Ball { .. } | JointKind::Condyloid { .. } => {
                 // Where the bone is at the end of the tick: an ellipse bends away under one that slides
-                // along it, and the twist of a turned axis changes as it does.
-                let child = (from_rotation_vector(spin * dt) * child).normalize();
+                // along it, and the twist of a turned axis changes as it does. No farther than so that
+                // the cone there does not leave out a bone that is well within.
+                let way = (spin * dt).clamp_length_max(FARTHEST);
+                let child = (from_rotation_vector(way) * child).normalize();
                 let q = self.joint_rotation(parent, child);
                 let (center, half_angle) = self.cap(q);
                 let axis = first * center * Vec3::X;
@@ -75,7 +80,7 @@ impl PlannedBone {
                 if let JointKind::Ball { twist, .. } = self.joint.kind {
                     aimed.rotation2 = self.frames.rotation2 * twist_of_angle(-shift);
                     let rate = spin.dot(axis + own) / (1.0 + axis.dot(own)).max(0.1);
-                    aimed.turns[0] = Some(ahead([twist.x, twist.y], rate, substep));
+                    aimed.turns[0] = bounds(twist).map(|range| ahead(range, rate, substep));
                 }
             }
             JointKind::Hinge { min, max } | JointKind::Pivot { min, max } => {

@@ -40,6 +40,7 @@ mod rise;
 mod sever;
 mod skin;
 mod state;
+mod teleport;
 mod tick;
 mod validate;
 mod weight;
@@ -50,7 +51,10 @@ use bevy_rapier3d::prelude::PhysicsSet;
 #[cfg(doc)]
 use crate::schedule::EmbodyCorePlugin;
 use crate::{
-    backend::{forces::ForcedBodies, joints::PinAnchors},
+    backend::{
+        forces::ForcedBodies,
+        joints::{JointIterations, PinAnchors},
+    },
     schedule::EmbodySystems,
 };
 
@@ -77,12 +81,12 @@ pub use profile::{
     RagdollProfile,
 };
 pub use rest::{CameToRest, RagdollRest};
-#[cfg(feature = "character")]
-pub(crate) use rise::find_place;
 pub use rise::{GetUp, GetUpClip, GetsUp, Lying};
 pub use sever::{Dismember, JointBroke, Reattach};
 pub use skin::{RagdollFromSkin, RagdollReady, SkinReport, fit_box, fit_capsule};
 pub use state::{BoneBody, BoneState, PendingHit, RagdollState};
+#[cfg(feature = "character")]
+pub(crate) use {rise::find_place, sever::is_cut};
 
 /// Where ragdolls work in a tick; each right behind the set of the same name of [`EmbodySystems`].
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -128,8 +132,10 @@ impl Plugin for RagdollPlugin {
             .add_observer(hit::take)
             .add_observer(sever::note_cut)
             .add_observer(sever::note_joined)
+            .add_observer(teleport::carry)
             .init_resource::<ForcedBodies>()
             .init_resource::<PinAnchors>()
+            .init_resource::<JointIterations>()
             .init_resource::<drive::BoneForces>()
             .configure_sets(
                 FixedPostUpdate,
@@ -159,7 +165,13 @@ impl Plugin for RagdollPlugin {
         app.add_systems(
             FixedPostUpdate,
             (
-                (prepare::build, hit::feel, rise::begin, prepare::switch)
+                (
+                    prepare::build,
+                    prepare::pace,
+                    hit::feel,
+                    rise::begin,
+                    prepare::switch,
+                )
                     .chain()
                     .in_set(RagdollSystems::Prepare),
                 (
@@ -200,7 +212,8 @@ impl Plugin for RagdollPlugin {
         // Also when the last ragdoll is gone.
         .add_systems(
             FixedPostUpdate,
-            drive::end_forces
+            (drive::end_forces, drive::set_iterations)
+                .chain()
                 .after(PhysicsSet::SyncBackend)
                 .before(EmbodySystems::Drive),
         );

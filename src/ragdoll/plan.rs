@@ -1,6 +1,6 @@
 //! A body plan made ready: bones in order, frames, masses, and what hangs on each joint.
 
-use bevy::prelude::*;
+use bevy::{math::Vec2, prelude::*};
 
 use super::{
     conditioning::condition,
@@ -23,6 +23,12 @@ pub(crate) struct RagdollPlan {
     pub apart: Vec<(usize, usize)>,
     /// Whether those pairs were told apart.
     pub told: bool,
+    /// The config that it was made of.
+    pub made_of: Option<Box<Ragdoll>>,
+    /// What was wrong with the last config, so that it is told once.
+    pub refused: Option<String>,
+    /// Which bones are gone though nobody asked for that.
+    pub lost: Vec<bool>,
     /// Whether any joint can part.
     pub breakable: bool,
     /// Substeps beyond those of the physics world.
@@ -149,6 +155,9 @@ impl RagdollPlan {
         let apart = apart(profile, &order, &bones);
         let figure = (sums.first()).map_or(Mat3::ZERO, |s| s.inertia);
         Self {
+            made_of: Some(Box::new(config.clone())),
+            refused: None,
+            lost: vec![false; bones.len()],
             breakable: bones.iter().any(|b| b.joint.breaks.is_some()),
             bones,
             apart,
@@ -184,6 +193,11 @@ fn apart(profile: &RagdollProfile, order: &[usize], bones: &[PlannedBone]) -> Ve
     pairs
 }
 
+/// A range of a turn; one that goes all round bounds nothing, and would hold at its seam.
+pub(super) fn bounds(range: Vec2) -> Option<[f32; 2]> {
+    (range.y - range.x < core::f32::consts::TAU - 1.0e-3).then_some([range.x, range.y])
+}
+
 impl PlannedBone {
     /// What its joint takes away or bounds.
     pub fn rows(&self) -> JointRows {
@@ -193,7 +207,7 @@ impl PlannedBone {
         };
         match self.joint.kind {
             JointKind::Ball { twist, .. } => {
-                rows.turns[0] = Some([twist.x, twist.y]);
+                rows.turns[0] = bounds(twist);
                 rows.cone = Some(self.cap(Quat::IDENTITY).1);
             }
             JointKind::Condyloid { .. } => {

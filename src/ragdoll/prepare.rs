@@ -28,14 +28,46 @@ const USUAL_SUBSTEPS: f32 = 4.0;
 /// The most that are added.
 const MOST_SUBSTEPS: f32 = 12.0;
 
+/// How many substeps are added at this length of a tick, seconds.
+fn extra_substeps(dt: f32) -> usize {
+    // A hair less, so that a rate that is no round number of seconds does not ask for one more.
+    let wanted = (dt / SUBSTEP - 0.01).ceil() - USUAL_SUBSTEPS;
+    wanted.clamp(0.0, MOST_SUBSTEPS) as usize
+}
+
+/// Adds as many substeps as the tick needs, also when its length changes.
+pub(super) fn pace(
+    time: Res<Time>,
+    mut commands: Commands,
+    mut ragdolls: Query<(&mut RagdollPlan, &Bones)>,
+) {
+    let dt = time.delta_secs();
+    if !(dt > 0.0) {
+        return;
+    }
+    let wanted = extra_substeps(dt);
+    for (mut plan, tied) in &mut ragdolls {
+        if plan.extra_substeps == wanted {
+            continue;
+        }
+        plan.bypass_change_detection().extra_substeps = wanted;
+        for bone in tied.iter() {
+            commands
+                .entity(bone)
+                .try_insert(AdditionalSolverIterations(wanted));
+        }
+    }
+}
+
 /// Builds the bones of what is new or changed.
 pub(super) fn build(
     time: Res<Time>,
+    helper: TransformHelper,
     mut commands: Commands,
     mut ragdolls: Query<
         (
             Entity,
-            &Ragdoll,
+            Ref<Ragdoll>,
             &RagdollPose,
             &Transform,
             &mut RagdollPlan,
@@ -46,27 +78,61 @@ pub(super) fn build(
         Changed<Ragdoll>,
     >,
 ) {
-    for (entity, config, pose, transform, mut plan, mut state, bones, joints) in &mut ragdolls {
+    for (entity, config, pose, own, mut plan, mut state, bones, joints) in &mut ragdolls {
+        // Who writes the component every tick has not changed it for that.
+        if plan.made_of.as_deref() == Some(&*config) {
+            continue;
+        }
+        let refused = validate::refuse(&config);
+        if let (None, Some(made_of)) = (&refused, plan.made_of.as_deref_mut())
+            && config.has_bones_of(made_of)
+        {
+            made_of.clone_from(&config);
+            continue;
+        }
         for bone in bones.iter().flat_map(|b| b.iter()) {
             commands.entity(bone).despawn();
         }
-        state.bones.clear();
+        let told = plan.refused.take();
         *plan = RagdollPlan::default();
-        if let Some(what) = validate::refuse(config) {
-            tracing::warn!("{entity}: ragdoll: {what}; it has no bones until then");
+        if let Some(what) = refused {
+            state.bones.clear();
+            if told.as_ref() != Some(&what) {
+                tracing::warn!("{entity}: ragdoll: {what}; it has no bones until then");
+            }
+            plan.refused = Some(what);
             continue;
         }
-        for line in validate::lint(config) {
+        for line in validate::lint(&config) {
             tracing::warn!("{entity}: ragdoll: {line}");
         }
-        *plan = RagdollPlan::of(config);
-        // A hair less, so that a rate that is no round number of seconds does not ask for one more.
-        let wanted = (time.delta_secs() / SUBSTEP - 0.01).ceil() - USUAL_SUBSTEPS;
-        plan.extra_substeps = wanted.clamp(0.0, MOST_SUBSTEPS) as usize;
-        state.bones.resize(plan.bones.len(), BoneState::default());
+        *plan = RagdollPlan::of(&config);
+        plan.extra_substeps = extra_substeps(time.delta_secs());
+        // One that came with a state goes on from there.
+        let saved = config.is_added() && state.bones.len() == plan.bones.len();
+        if !saved {
+            state.bones.clear();
+            state.bones.resize(plan.bones.len(), BoneState::default());
+        }
+        for bone in &mut state.bones {
+            bone.body = BoneBody::Off;
+        }
+        let global = helper.compute_global_transform(entity).unwrap_or_default();
+        let (_, rotation, translation) = global.to_scale_rotation_translation();
+        let scale = own.scale;
+        if joints.is_none() && !scale.abs_diff_eq(Vec3::ONE, 1.0e-3) {
+            tracing::warn!(
+                "{entity}: ragdoll: its scale is {scale}, but needs 1: a figure is as large as \
+                 Ragdoll::profile says, and the scale counts for nothing"
+            );
+        }
+        let figure = Transform::from_translation(translation).with_rotation(rotation);
         for (order, bone) in plan.bones.iter().enumerate() {
             let asked = pose.bones.get(bone.index).filter(|p| p.is_sound());
-            let place = asked.unwrap_or(&bone.bind).seen_from(transform);
+            let place = match &state.bones[order] {
+                known if known.target.is_some() => known.place,
+                _ => asked.unwrap_or(&bone.bind).seen_from(&figure),
+            };
             let name = &config.profile.bones[bone.index].name;
             let joint = joints.and_then(|j| j.0.iter().find(|(of, ..)| of == name));
             let mut made = commands.spawn((
@@ -166,7 +232,12 @@ pub(super) fn switch(
         &RagdollState,
         &Bones,
     )>,
-    bones: Query<(&RagdollBone, &BoneControl)>,
+    bones: Query<(
+        &RagdollBone,
+        &BoneControl,
+        Option<&RigidBody>,
+        Has<RigidBodyDisabled>,
+    )>,
 ) {
     for (config, intent, plan, state, tied) in &ragdolls {
         let mode = rest::mode(intent, state, config);
@@ -174,14 +245,19 @@ pub(super) fn switch(
             continue;
         }
         for entity in tied.iter() {
-            let Ok((bone, control)) = bones.get(entity) else {
+            let Ok((bone, control, body, off)) = bones.get(entity) else {
                 continue;
             };
-            let (Some(known), true) = (state.bones.get(bone.order), bone.order < plan.bones.len())
-            else {
+            if bone.order >= plan.bones.len() || state.bones.len() != plan.bones.len() {
                 continue;
+            }
+            // By what is there: a state that was written over it may tell of other bodies.
+            let now = match body {
+                _ if off => BoneBody::Off,
+                Some(RigidBody::Dynamic) => BoneBody::Dynamic,
+                Some(RigidBody::Fixed) => BoneBody::Fixed,
+                _ => BoneBody::Kinematic,
             };
-            let now = known.body;
             let want = wanted(mode, control, plan, state, bone.order);
             if want == now {
                 continue;

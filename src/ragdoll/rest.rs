@@ -7,6 +7,7 @@ use super::{
     config::Ragdoll,
     intent::{RagdollIntent, RagdollMode},
     plan::RagdollPlan,
+    sever::is_cut,
     state::{BoneBody, RagdollState},
 };
 
@@ -87,8 +88,9 @@ pub(super) fn notice(
             continue;
         }
         let (mut mass, mut sum) = (0.0, 0.0);
-        for (bone, known) in plan.bones.iter().zip(&state.bones) {
-            if known.body == BoneBody::Dynamic {
+        for (i, (bone, known)) in plan.bones.iter().zip(&state.bones).enumerate() {
+            // A limb that rolls away is not the figure.
+            if known.body == BoneBody::Dynamic && !is_cut(plan, state, i) {
                 mass += bone.mass;
                 sum += bone.mass * known.velocity.length_squared();
             }

@@ -17,6 +17,7 @@ use super::{
     plan::RagdollPlan,
     pose::{BonePose, RagdollPose},
     rest,
+    sever::is_cut,
     state::{BoneBody, RagdollState},
     tick::Slot,
 };
@@ -116,10 +117,12 @@ pub(crate) struct Laid {
     pub cost: f32,
 }
 
-/// Lays a pose, given in the axes of the figure, over where bones are.
+/// Lays a pose, given in the axes of the figure, over where bones are. What is cut off lies elsewhere, and
+/// does not count.
 pub(crate) fn lay(
     plan: &RagdollPlan,
     place: impl Fn(usize) -> BonePose,
+    cut: impl Fn(usize) -> bool,
     pose: &RagdollPose,
 ) -> Laid {
     let asked = |i: usize| {
@@ -128,14 +131,15 @@ pub(crate) fn lay(
     };
     let center = |i: usize, at: &BonePose| at.position + at.rotation * plan.bones[i].center;
     let (mut mass, mut of_pose, mut of_figure) = (0.0, Vec3::ZERO, Vec3::ZERO);
-    for (i, bone) in plan.bones.iter().enumerate() {
+    let whole = || (plan.bones.iter().enumerate()).filter(|(i, _)| !cut(*i));
+    for (i, bone) in whole() {
         mass += bone.mass;
         of_pose += center(i, &asked(i)) * bone.mass;
         of_figure += center(i, &place(i)) * bone.mass;
     }
     let (of_pose, of_figure) = (of_pose / mass, of_figure / mass);
     let (mut cos, mut sin) = (0.0, 0.0);
-    for (i, bone) in plan.bones.iter().enumerate() {
+    for (i, bone) in whole() {
         let a = center(i, &asked(i)) - of_pose;
         let b = center(i, &place(i)) - of_figure;
         cos += bone.mass * (a.x * b.x + a.z * b.z);
@@ -143,7 +147,7 @@ pub(crate) fn lay(
     }
     let rotation = from_rotation_vector(Vec3::Y * ops::atan2(sin, cos));
     let mut cost = 0.0;
-    for (i, bone) in plan.bones.iter().enumerate() {
+    for (i, bone) in whole() {
         let off = angle((rotation * asked(i).rotation).inverse() * place(i).rotation);
         cost += bone.mass * off * off / mass;
     }
@@ -176,7 +180,8 @@ pub(crate) fn find_place(
     }
     let place = |i: usize| state.bones[i].place;
     let clips = clips.map_or(&[][..], |c| &c.clips[..]);
-    let laid = clips.iter().map(|clip| lay(plan, place, &clip.start));
+    let cut = |i: usize| is_cut(plan, state, i);
+    let laid = clips.iter().map(|clip| lay(plan, place, cut, &clip.start));
     let best = (laid.enumerate()).min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
     let root = place(0).position;
     let (clip, rotation, origin) = match best {
@@ -238,7 +243,9 @@ pub(super) fn begin(
         let Some((_, link)) = bones.iter_many(tied.iter()).next() else {
             continue;
         };
-        let own = |other: Entity| other == entity || bones.contains(other);
+        // The same as where a character looks for room: of other figures, bones are in the way.
+        let own =
+            |other: Entity| other == entity || bones.get(other).is_ok_and(|(of, _)| of.0 == entity);
         let Some(place) = find_place(plan, &state, Some(clips), &worlds, link, own) else {
             continue;
         };
@@ -329,7 +336,7 @@ mod tests {
             let at = Transform::from_xyz(3.0, 1.0, -7.0)
                 .with_rotation(from_rotation_vector(Vec3::Y * yaw));
             let figure = places(&plan, &lying, &at);
-            let laid = lay(&plan, |i| figure[i], &lying);
+            let laid = lay(&plan, |i| figure[i], |_| false, &lying);
             assert!(
                 angle(laid.rotation.inverse() * at.rotation) < 1.0e-3,
                 "{yaw}"
@@ -364,7 +371,7 @@ mod tests {
                 let lean = Quat::from_rotation_x(0.2);
                 let figure = places(&plan, &lies(way * lean, 0.6), &at);
                 let best = ways.into_iter().enumerate().min_by(|(_, a), (_, b)| {
-                    let cost = |w: Quat| lay(&plan, |i| figure[i], &lies(w, 0.0)).cost;
+                    let cost = |w: Quat| lay(&plan, |i| figure[i], |_| false, &lies(w, 0.0)).cost;
                     cost(*a).total_cmp(&cost(*b))
                 });
                 assert_eq!(best.map(|b| b.0), Some(n), "yaw {yaw}");

@@ -47,7 +47,7 @@ pub struct JointBroke {
 }
 
 /// Whether a bone hangs on a joint that has parted, its own or one above.
-pub(super) fn is_cut(plan: &RagdollPlan, state: &RagdollState, bone: usize) -> bool {
+pub(crate) fn is_cut(plan: &RagdollPlan, state: &RagdollState, bone: usize) -> bool {
     let mut at = Some(bone);
     while let Some(i) = at {
         if state.bones.get(i).is_some_and(|b| b.severed) {
@@ -213,7 +213,8 @@ fn put_back(
         while let Some(i) = at
             && i != limb
         {
-            at = plan.bones[i].parent;
+            // What is cut off from the limb stays where it is.
+            at = plan.bones[i].parent.filter(|_| !state.bones[i].severed);
         }
         let known = &mut state.bones[bone.order];
         if at.is_none() || known.body != BoneBody::Dynamic {

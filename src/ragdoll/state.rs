@@ -20,6 +20,8 @@ pub struct RagdollState {
     pub still: f32,
     /// The clip of its [`GetUp`](super::GetUp) that it waits for while it gets up.
     pub rise: Option<usize>,
+    /// Where its entity was after the last tick.
+    pub figure: BonePose,
     /// Hits that the next tick delivers.
     pub hits: Vec<PendingHit>,
     /// The bones, parents before children, as in [`Bones`](super::Bones).
@@ -47,6 +49,7 @@ impl Default for RagdollState {
             rise_time: 0.5,
             still: 0.0,
             rise: None,
+            figure: BonePose::default(),
             hits: Vec::new(),
             bones: Vec::new(),
         }

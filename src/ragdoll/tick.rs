@@ -285,13 +285,13 @@ pub(super) fn drive(
     worlds.drive(link, joint, aim, &rows);
 }
 
-/// Holds a bone at its place in the world, or lets it go.
+/// Holds a bone, with so much mass that hangs on it, kilograms, at its place in the world, or lets it go.
 pub(super) fn pin(
     worlds: &mut JointWorlds,
     config: &Ragdoll,
     plan: &RagdollPlan,
     slot: &Slot,
-    share: f32,
+    mass: f32,
     ties: &mut BoneTies,
     (dt, substeps): (f32, f32),
 ) {
@@ -319,8 +319,8 @@ pub(super) fn pin(
         velocity: rotation.inverse() * velocity,
         most: MOST,
     };
-    let slides = rows(plan.mass * share, way / dt);
-    let turns = rows(plan.inertia * share, turn / dt);
+    let slides = rows(mass, way / dt);
+    let turns = rows(plan.inertia * mass / plan.mass, turn / dt);
     worlds.drive_pin(link, joint, position, rotation, &slides, &turns);
 }
 

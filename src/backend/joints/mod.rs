@@ -61,6 +61,38 @@ impl BodyMotion {
 #[derive(Resource, Default)]
 pub(crate) struct PinAnchors(Vec<(Entity, RigidBodyHandle)>);
 
+/// The physics worlds' settings.
+pub(crate) type WorldSteps<'w, 's> = Query<'w, 's, (Entity, &'static mut RapierContextSimulation)>;
+
+/// How often each physics world went over its joints before ragdolls asked for more, and what it was
+/// then set to.
+#[derive(Resource, Default)]
+pub(crate) struct JointIterations(Vec<(Entity, usize, usize)>);
+
+impl JointIterations {
+    /// Lets the solver of each world go over the joints in each substep as often as the largest number
+    /// that is asked for there, and no oftener once nobody asks.
+    pub fn set(&mut self, worlds: &mut WorldSteps, asked: impl Fn(Entity) -> usize) {
+        for (world, mut simulation) in worlds {
+            let parameters = &mut simulation.bypass_change_detection().integration_parameters;
+            let now = &mut parameters.num_internal_pgs_iterations;
+            let known = self.0.iter().position(|(of, ..)| *of == world);
+            let own = match known.map(|i| self.0[i]) {
+                Some((_, own, set)) if set == *now => own,
+                // The game has set it.
+                _ => *now,
+            };
+            let wanted = own.max(asked(world));
+            if let Some(known) = known {
+                self.0[known] = (world, own, wanted);
+            } else if wanted != own {
+                self.0.push((world, own, wanted));
+            }
+            *now = wanted;
+        }
+    }
+}
+
 /// All physics worlds, for joints.
 #[derive(SystemParam)]
 pub(crate) struct JointWorlds<'w, 's> {
@@ -89,15 +121,6 @@ impl JointWorlds<'_, '_> {
         self.contexts.get(link.0).map_or(4.0, |(_, _, sim, _)| {
             sim.integration_parameters.num_solver_iterations.max(1) as f32
         })
-    }
-
-    /// Lets the solver go over the joints at least so often in each substep.
-    pub fn need_iterations(&mut self, link: &RapierContextEntityLink, iterations: usize) {
-        if let Ok((_, _, mut simulation, _)) = self.contexts.get_mut(link.0) {
-            let parameters = &mut simulation.bypass_change_detection().integration_parameters;
-            let now = parameters.num_internal_pgs_iterations;
-            parameters.num_internal_pgs_iterations = now.max(iterations);
-        }
     }
 
     /// Ties two bodies together; what they are tied by does not let them collide.
@@ -135,7 +158,13 @@ impl JointWorlds<'_, '_> {
         let known = self.anchors.0.iter().find(|(world, _)| *world == link.0);
         let (_, mut bodies, ..) = self.contexts.get_mut(link.0).ok()?;
         let anchor = match known.map(|(_, anchor)| *anchor) {
-            Some(anchor) if bodies.bodies.contains(anchor) => anchor,
+            // Another set of bodies, as after a rollback, may have given the handle to something else.
+            Some(anchor)
+                if (bodies.bodies.get(anchor))
+                    .is_some_and(|b| b.is_fixed() && b.colliders().is_empty()) =>
+            {
+                anchor
+            }
             _ => {
                 let anchor = bodies.bodies.insert(RigidBodyBuilder::fixed());
                 self.anchors.0.retain(|(world, _)| *world != link.0);
@@ -246,7 +275,11 @@ impl JointWorlds<'_, '_> {
         velocity: Vec3,
         spin: Vec3,
     ) {
-        if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
+        let sound = pose.is_none_or(|(p, r)| p.is_finite() && r.is_finite());
+        if sound
+            && velocity.is_finite()
+            && spin.is_finite()
+            && let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
         {
             if let Some((position, rotation)) = pose {
@@ -268,7 +301,9 @@ impl JointWorlds<'_, '_> {
         velocity: Vec3,
         spin: Vec3,
     ) {
-        if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
+        if velocity.is_finite()
+            && spin.is_finite()
+            && let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
         {
             body.set_linvel(velocity, false);
@@ -284,7 +319,9 @@ impl JointWorlds<'_, '_> {
         impulse: Vec3,
         point: Vec3,
     ) {
-        if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
+        if impulse.is_finite()
+            && point.is_finite()
+            && let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
             && body.is_dynamic()
         {
@@ -300,7 +337,9 @@ impl JointWorlds<'_, '_> {
         position: Vec3,
         rotation: Quat,
     ) {
-        if let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
+        if position.is_finite()
+            && rotation.is_finite()
+            && let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
         {
             // The engine takes the velocity from the difference of both as they are written: from the

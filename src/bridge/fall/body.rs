@@ -20,6 +20,13 @@ pub(crate) struct OwnBones {
     parted: bool,
 }
 
+impl OwnBones {
+    /// Takes the bones off the list of what a character ignores.
+    pub(super) fn release(&self, ignores: &mut CharacterIgnores) {
+        ignores.0.retain(|e| !self.bones.contains(e));
+    }
+}
+
 /// The solver of characters leaves out the bones.
 pub(super) fn ignore_own_bones(
     mut characters: Query<
@@ -28,7 +35,7 @@ pub(super) fn ignore_own_bones(
     >,
 ) {
     for (bones, mut own, mut ignores) in &mut characters {
-        ignores.0.retain(|e| !own.bones.contains(e));
+        own.release(&mut ignores);
         own.bones.clear();
         own.bones.extend(bones.iter());
         ignores.0.extend(bones.iter());

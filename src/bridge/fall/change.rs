@@ -4,12 +4,15 @@ use bevy::prelude::*;
 use bevy_rapier3d::prelude::RigidBodyDisabled;
 
 use super::{
-    BecomeRagdoll, BodyPhase, CharacterRagdoll, CharacterRagdollState, FellDown, Recover, StoodUp,
+    BecomeRagdoll, BodyPhase, CharacterRagdoll, CharacterRagdollState, FellDown, OwnBones, Recover,
+    StoodUp,
 };
 use crate::{
     backend::{handles::RapierContextEntityLink, world::PhysicsWorlds},
-    character::{Character, CharacterState},
-    ragdoll::{BoneOf, GetUp, RagdollIntent, RagdollMode, RagdollPlan, RagdollState, find_place},
+    character::{Character, CharacterIgnores, CharacterState},
+    ragdoll::{
+        BoneOf, GetUp, RagdollIntent, RagdollMode, RagdollPlan, RagdollState, find_place, is_cut,
+    },
 };
 
 /// How far above its floor room for a capsule is looked for, metres: what is lower can be stepped onto.
@@ -36,6 +39,24 @@ fn warn_missing(entity: Entity) {
     tracing::warn!("{entity}: it was told to fall or to get up, but has no CharacterRagdoll");
 }
 
+/// Who stands does not begin as whatever an intent is that nobody wrote.
+pub(super) fn stand(
+    mut new: Query<
+        (
+            &CharacterRagdoll,
+            &CharacterRagdollState,
+            &mut RagdollIntent,
+        ),
+        Or<(Added<CharacterRagdoll>, Added<RagdollIntent>)>,
+    >,
+) {
+    for (config, state, mut intent) in &mut new {
+        if state.phase == BodyPhase::Upright && intent.mode != config.upright {
+            intent.mode = config.upright;
+        }
+    }
+}
+
 type Fallen<'a> = (
     Entity,
     &'a CharacterRagdoll,
@@ -49,6 +70,7 @@ type Fallen<'a> = (
     ),
     &'a mut Transform,
     &'a RapierContextEntityLink,
+    Has<RigidBodyDisabled>,
 );
 
 /// Takes every character to its next phase.
@@ -58,7 +80,7 @@ pub(super) fn change(
     mut characters: Query<Fallen>,
     bones: Query<&BoneOf>,
 ) {
-    for (entity, config, mut state, (character, mut moves), ragdoll, mut transform, link) in
+    for (entity, config, mut state, (character, mut moves), ragdoll, mut transform, link, off) in
         &mut characters
     {
         let (mut intent, mut figure, plan, clips) = ragdoll;
@@ -74,12 +96,21 @@ pub(super) fn change(
                     bone.velocity += gained;
                 }
                 intent.mode = config.down;
-                commands.entity(entity).insert(RigidBodyDisabled);
                 commands.trigger(FellDown { entity });
             }
             state.phase = BodyPhase::Down;
             figure.still = 0.0;
+            if !off {
+                commands.entity(entity).insert(RigidBodyDisabled);
+            }
             continue;
+        }
+        // By the phase, not by its changes: it may have been restored.
+        let lies = matches!(state.phase, BodyPhase::Down | BodyPhase::Waiting);
+        if lies && !off {
+            commands.entity(entity).insert(RigidBodyDisabled);
+        } else if !lies && off {
+            commands.entity(entity).remove::<RigidBodyDisabled>();
         }
         match state.phase {
             BodyPhase::Upright => {
@@ -114,9 +145,11 @@ pub(super) fn change(
                 transform.translation = place.position;
                 transform.rotation = place.rotation;
                 let (mut mass, mut momentum) = (0.0, Vec3::ZERO);
-                for (bone, known) in plan.bones.iter().zip(&figure.bones) {
-                    mass += bone.mass;
-                    momentum += known.velocity * bone.mass;
+                for (i, (bone, known)) in plan.bones.iter().zip(&figure.bones).enumerate() {
+                    if !is_cut(plan, &figure, i) {
+                        mass += bone.mass;
+                        momentum += known.velocity * bone.mass;
+                    }
                 }
                 *moves = CharacterState {
                     velocity: (momentum / mass).with_y(0.0),
@@ -139,4 +172,24 @@ pub(super) fn change(
             }
         }
     }
+}
+
+/// Who cannot fall any more is on its feet, with bones that are nobody's.
+pub(super) fn forget(
+    removed: On<Remove, CharacterRagdoll>,
+    mut commands: Commands,
+    mut characters: Query<(&CharacterRagdollState, &OwnBones, &mut CharacterIgnores)>,
+) {
+    let entity = removed.entity;
+    let Ok((state, own, mut ignores)) = characters.get_mut(entity) else {
+        return;
+    };
+    own.release(&mut ignores);
+    let Ok(mut entity) = commands.get_entity(entity) else {
+        return;
+    };
+    if matches!(state.phase, BodyPhase::Down | BodyPhase::Waiting) {
+        entity.try_remove::<RigidBodyDisabled>();
+    }
+    entity.try_remove::<(CharacterRagdollState, OwnBones)>();
 }

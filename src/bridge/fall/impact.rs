@@ -6,7 +6,40 @@ use super::{BodyPhase, CharacterRagdoll, CharacterRagdollState};
 use crate::{
     backend::{handles::RapierContextEntityLink, world::PhysicsWorlds},
     character::{Character, CharacterContacts, Hit},
+    validate::warn_bad,
 };
+
+/// What throws down must be more than nothing.
+fn can_fell(impulse: f32) -> bool {
+    impulse > 0.0
+}
+
+/// Tells of settings that cannot work, each once.
+pub(super) fn check(changed: Query<(Entity, &CharacterRagdoll), Changed<CharacterRagdoll>>) {
+    for (entity, config) in &changed {
+        let bad = config.fall_impulse.filter(|most| !can_fell(*most));
+        if let Some(value) = bad {
+            let value = value.to_string();
+            warn_bad(
+                entity,
+                "CharacterRagdoll::fall_impulse",
+                &value,
+                "a number above 0",
+                "nothing throws it down",
+            );
+        }
+        if let Some(time) = config.get_up_after.filter(|t| !(*t >= 0.0)) {
+            let value = time.to_string();
+            warn_bad(
+                entity,
+                "CharacterRagdoll::get_up_after",
+                &value,
+                "a number of at least 0",
+                "it gets up when it is told to",
+            );
+        }
+    }
+}
 
 /// Lets characters fall that loose bodies ran into harder than they can stand.
 ///
@@ -26,7 +59,7 @@ pub(super) fn feel(
 ) {
     let dt = time.delta_secs();
     for (config, mut state, character, contacts) in &mut characters {
-        let Some(most) = config.fall_impulse else {
+        let Some(most) = config.fall_impulse.filter(|most| can_fell(*most)) else {
             continue;
         };
         if !matches!(state.phase, BodyPhase::Upright | BodyPhase::Rising) {
@@ -59,7 +92,7 @@ pub(super) fn note(
     let Ok((config, mut state, character, link)) = characters.get_mut(hit.entity) else {
         return;
     };
-    let Some(most) = config.fall_impulse else {
+    let Some(most) = config.fall_impulse.filter(|most| can_fell(*most)) else {
         return;
     };
     let carrier = (worlds.of(link)).and_then(|view| view.carrier(hit.other, time.delta_secs()));

@@ -22,8 +22,8 @@ use body::OwnBones;
 /// [`Ragdoll`](crate::ragdoll::Ragdoll): lets it fall ([`FallCommands::become_ragdoll`]) and get up
 /// ([`FallCommands::recover`]).
 ///
-/// It writes the [`RagdollIntent::mode`](crate::ragdoll::RagdollIntent) when its phase changes, and only
-/// then. Its own bones are nothing to its capsule. For characters at the top level of the world whose up
+/// It writes the [`RagdollIntent::mode`](crate::ragdoll::RagdollIntent) when it is added and when its phase
+/// changes, and only then. Its own bones are nothing to its capsule. For characters at the top level of the world whose up
 /// is `+Y`.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
@@ -139,6 +139,10 @@ impl FallCommands for Commands<'_, '_> {
     }
 }
 
+/// The systems of [`CharacterRagdollPlugin`].
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CharacterRagdollSystems;
+
 /// Lets characters become ragdolls and get up. Part of [`EmbodyPlugins`](crate::EmbodyPlugins).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CharacterRagdollPlugin;
@@ -153,11 +157,17 @@ impl Plugin for CharacterRagdollPlugin {
             .register_type::<StoodUp>()
             .add_observer(change::note_fall)
             .add_observer(change::note_rise)
+            .add_observer(change::forget)
             .add_observer(impact::note)
             .add_systems(
                 FixedPostUpdate,
                 (
-                    (body::ignore_own_bones, change::change)
+                    (
+                        impact::check,
+                        change::stand,
+                        body::ignore_own_bones,
+                        change::change,
+                    )
                         .chain()
                         .after(EmbodySystems::Prepare)
                         .before(RagdollSystems::Prepare),
@@ -166,6 +176,7 @@ impl Plugin for CharacterRagdollPlugin {
                         .after(RagdollSystems::Drive)
                         .before(bevy_rapier3d::prelude::PhysicsSet::StepSimulation),
                 )
+                    .in_set(CharacterRagdollSystems)
                     .run_if(any_with_component::<CharacterRagdoll>),
             );
     }

@@ -125,6 +125,18 @@ impl BoneShape {
         }
     }
 
+    /// How far it reaches from the origin of its bone along a direction of unit length, metres.
+    pub(crate) fn reach(&self, along: Vec3) -> f32 {
+        match *self {
+            Self::Capsule { from, to, radius } => from.dot(along).max(to.dot(along)) + radius,
+            Self::Box {
+                center,
+                rotation,
+                half,
+            } => center.dot(along) + (rotation.inverse() * along).abs().dot(half),
+        }
+    }
+
     /// The thickest line within: its ends and its radius.
     pub(crate) fn core(&self) -> (Vec3, Vec3, f32) {
         match *self {
@@ -240,6 +252,19 @@ mod tests {
         let g = rod.gyration();
         assert!((g.y * g.y - 100.0 / 12.0).abs() < 0.01);
         assert!((rod.axes() * Vec3::X - Vec3::Y).length() < 1.0e-6);
+    }
+
+    #[test]
+    fn a_turned_box_reaches_as_far_as_its_farthest_corner() {
+        let shape = BoneShape::Box {
+            center: Vec3::new(0.0, 0.1, 0.0),
+            rotation: degrees(Vec3::Z, 45.0),
+            half: Vec3::new(0.3, 0.3, 0.05),
+        };
+        let diagonal = 0.3 * 2.0f32.sqrt();
+        assert!((shape.reach(Vec3::NEG_Y) - (diagonal - 0.1)).abs() < 1.0e-6);
+        assert!((shape.reach(Vec3::Y) - (diagonal + 0.1)).abs() < 1.0e-6);
+        assert!((shape.reach(Vec3::Z) - 0.05).abs() < 1.0e-6);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use bevy::{
     ecs::schedule::{ScheduleLabel, SystemKey, SystemSet},
     prelude::*,
 };
-use bevy_embody::prelude::*;
+use bevy_embody::{prelude::*, ragdoll::RagdollSystems};
 use embody_scenes::Sim;
 
 /// Pairs of systems that use the same data without an order, at least one of them in one of the
@@ -24,6 +24,10 @@ fn ambiguities<M>(label: impl ScheduleLabel, plugins: impl Plugins<M>) -> Vec<St
             VehicleSystems::Drive.intern(),
             VehicleSystems::React.intern(),
             VehicleSystems::Present.intern(),
+            RagdollSystems::Prepare.intern(),
+            RagdollSystems::Drive.intern(),
+            RagdollSystems::React.intern(),
+            CharacterRagdollSystems.intern(),
         ]
         .into_iter()
         .filter_map(|set| graph.systems_in_set(set).ok())
@@ -56,14 +60,18 @@ fn no_system_of_a_frame_is_ambiguous() {
     assert_eq!(ambiguities(PostUpdate, EmbodyPlugins), [""; 0]);
 }
 
+/// What no system of the crate looks at.
+#[derive(Component)]
+struct Marked;
+
 #[test]
 fn an_ambiguous_system_is_found() {
     let found = ambiguities(FixedPostUpdate, |app: &mut App| {
         app.add_plugins(EmbodyPlugins).add_systems(
             FixedPostUpdate,
             (
-                (|_: Query<&mut Name>| {}).in_set(EmbodySystems::Drive),
-                |_: Query<&mut Name>| {},
+                (|_: Query<&mut Marked>| {}).in_set(EmbodySystems::Drive),
+                |_: Query<&mut Marked>| {},
             ),
         );
     });

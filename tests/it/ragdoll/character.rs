@@ -188,3 +188,78 @@ fn a_fast_crate_throws_it_down_and_a_slow_one_or_a_wall_does_not() {
         findings.holds(format!("{hz} Hz: a wall that it runs into"), stands);
     }
 }
+
+#[test]
+fn who_is_spawned_with_no_intent_stands_and_who_gets_its_skin_late_too() {
+    let mut findings = Findings::new();
+    for late in [false, true] {
+        let mut sim = Sim::new(60.0);
+        ground(&mut sim);
+        let ragdoll = Ragdoll::new(
+            RagdollProfile::humanoid(HumanoidDetail::Bodies10, 1.75),
+            75.0,
+        );
+        let entity = sim.spawn((
+            Character::default(),
+            CharacterRagdoll::default(),
+            Transform::default(),
+        ));
+        if late {
+            sim.ticks(10);
+        }
+        insert(&mut sim, entity, ragdoll);
+        sim.seconds(1.0);
+        let head = sim.position(bone(&sim, entity, "head")).y;
+        findings.at_least(format!("late {late}: head, m"), head, 1.4);
+        let mode = sim.get::<RagdollIntent>(entity).mode;
+        findings.holds(format!("{mode:?}"), mode == RagdollMode::HitBoxes);
+    }
+}
+
+#[test]
+fn a_phase_that_was_written_back_is_taken_up_by_the_capsule() {
+    let mut findings = Findings::new();
+    let mut sim = Sim::new(60.0);
+    ground(&mut sim);
+    let entity = person(&mut sim, Vec3::ZERO, CharacterRagdoll::default());
+    let saved = sim.get::<CharacterRagdollState>(entity);
+    told(&mut sim, |c| c.become_ragdoll(entity));
+    sim.ticks(20);
+    let fallen = sim.get::<CharacterRagdollState>(entity);
+    let off = |sim: &Sim| sim.app.world().get::<RigidBodyDisabled>(entity).is_some();
+    findings.holds("down: the capsule is off", off(&sim));
+    insert(&mut sim, entity, saved);
+    sim.ticks(2);
+    findings.holds("upright again: it is on", !off(&sim));
+    insert(&mut sim, entity, fallen);
+    sim.ticks(2);
+    findings.holds("down again: it is off", off(&sim));
+    // Without the component it is a character again.
+    let mut world = sim.app.world_mut().entity_mut(entity);
+    world.remove::<CharacterRagdoll>();
+    sim.ticks(2);
+    findings.holds("no longer one that falls: it is on", !off(&sim));
+    let ignored = sim.get::<CharacterIgnores>(entity).0.len();
+    findings.near("ignored bones", ignored as f32, 0.0, 0.0);
+}
+
+#[test]
+fn an_impulse_of_nothing_throws_nobody_down_and_is_told_once() {
+    let mut findings = Findings::new();
+    let mut sim = Sim::new(60.0);
+    ground(&mut sim);
+    crate::character::warnings::unique_entities(&mut sim);
+    let config = CharacterRagdoll {
+        fall_impulse: Some(0.0),
+        ..default()
+    };
+    let entity = person(&mut sim, Vec3::ZERO, config);
+    sim.walk(entity, Vec3::NEG_Z);
+    sim.seconds(1.0);
+    findings.holds("it walks", phase(&sim, entity) == BodyPhase::Upright);
+    let told = crate::character::warnings::about(entity);
+    findings.holds(
+        format!("{told:?}"),
+        told.len() == 1 && told[0].contains("fall_impulse is 0"),
+    );
+}

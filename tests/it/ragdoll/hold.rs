@@ -184,3 +184,27 @@ fn a_powered_figure_pinned_by_its_pelvis_stays_where_it_is() {
         findings.within(format!("{hz} Hz: falls when let go, m"), fallen, 0.44, 0.15);
     }
 }
+
+#[test]
+fn a_pin_bears_what_hangs_on_it_and_nothing_that_was_cut_off() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let mode = RagdollMode::Powered;
+        let at = Vec3::Y * 60.0;
+        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, at);
+        sim.ticks(1);
+        let [pelvis, thigh] = ["pelvis", "thigh_l"].map(|n| bone(&sim, entity, n));
+        for part in [pelvis, thigh] {
+            edit::<BoneControl>(&mut sim, part, |c| c.pin = 1.0);
+        }
+        sim.ticks(2);
+        // Cut off, the thigh is pinned no more, and what is left is lighter.
+        sim.app.world_mut().trigger(Dismember { entity: thigh });
+        sim.ticks(2);
+        let start = sim.position(pelvis);
+        sim.seconds(2.0);
+        let off = sim.position(pelvis).distance(start);
+        findings.at_most(format!("{hz} Hz: way of the pelvis, m"), off, 0.003);
+    }
+}

@@ -105,3 +105,52 @@ fn what_is_loose_is_shoved_aside_and_what_is_fixed_holds_until_the_way_is_free()
         findings.holds("finite", finite(&sim, entity));
     }
 }
+
+#[test]
+fn a_figure_that_was_animated_elsewhere_is_keyframed_from_where_it_was_animated_to() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let mut sim = Sim::new(hz);
+        let mode = RagdollMode::Animated;
+        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::Y * 2.0);
+        sim.ticks(2);
+        // Far from where its bodies were built.
+        edit::<Transform>(&mut sim, entity, |t| {
+            *t = Transform::from_xyz(7.0, 3.0, -4.0).with_rotation(Quat::from_rotation_y(1.5));
+        });
+        sim.ticks(3);
+        ask(&mut sim, entity, RagdollMode::Keyframed);
+        for tick in 0..3 {
+            sim.ticks(1);
+            let what = format!("{hz} Hz, {tick}: off, m");
+            findings.at_most(what, off(&sim, entity), 0.005);
+        }
+    }
+}
+
+#[test]
+fn a_keyframed_figure_does_not_run_away_from_itself() {
+    let mut findings = Findings::new();
+    for mode in [RagdollMode::Keyframed, RagdollMode::Partial] {
+        let mut sim = Sim::new(60.0);
+        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::Y * 2.0);
+        insert(&mut sim, entity, FollowRoot);
+        let profile = sim.get::<Ragdoll>(entity).profile;
+        // The pose leans, and stands off its origin.
+        let mut pose = RagdollPose::from_turns(&profile, [("pelvis", Quat::from_rotation_x(0.4))]);
+        for bone in &mut pose.bones {
+            bone.position += Vec3::new(0.2, 0.3, 0.1);
+        }
+        insert(&mut sim, entity, pose);
+        sim.ticks(1);
+        for part in bones(&sim, entity) {
+            edit::<BoneControl>(&mut sim, part, |c| {
+                c.simulated = true;
+                c.pin = 1.0;
+            });
+        }
+        sim.seconds(1.0);
+        let way = sim.position(entity).distance(Vec3::Y * 2.0);
+        findings.at_most(format!("{mode:?}: way of the figure, m"), way, 0.0);
+    }
+}

@@ -11,7 +11,7 @@ struct Rests(Vec<Entity>);
 
 fn fallen(hz: f64, rest: RagdollRest) -> (Sim, Entity) {
     let mut sim = Sim::new(hz);
-    sim.floor(0.0);
+    ground(&mut sim);
     sim.app.init_resource::<Rests>();
     sim.app
         .add_observer(|rest: On<CameToRest>, mut rests: ResMut<Rests>| rests.0.push(rest.entity));
@@ -29,8 +29,7 @@ fn fallen(hz: f64, rest: RagdollRest) -> (Sim, Entity) {
 #[test]
 fn a_figure_that_has_fallen_is_noticed_once_and_again_after_it_was_pushed() {
     let mut findings = Findings::new();
-    // At 30 ticks per second a limp figure of 15 bodies trembles on, faster than what counts as rest.
-    for hz in [60.0, 120.0, 240.0] {
+    for hz in RATES {
         let (mut sim, entity) = fallen(hz, RagdollRest::default());
         sim.seconds(0.3);
         let count = |sim: &Sim| sim.app.world().resource::<Rests>().0.len() as f32;
@@ -60,7 +59,7 @@ fn a_figure_that_stood_still_falls_as_if_it_would_never_freeze() {
     let mut findings = Findings::new();
     let run = |freeze_after: Option<f32>| {
         let mut sim = Sim::new(60.0);
-        sim.floor(0.0);
+        ground(&mut sim);
         let mut ragdoll = Ragdoll::new(
             RagdollProfile::humanoid(HumanoidDetail::Bodies15, 1.75),
             75.0,

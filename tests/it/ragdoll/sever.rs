@@ -191,3 +191,33 @@ fn the_root_cannot_be_cut_off_and_a_stranger_not_at_all() {
     let gap = worst(&sim, entity, |o| o.gap);
     findings.at_most("gap, m", gap, 2.0e-3);
 }
+
+#[test]
+fn what_was_cut_off_from_a_limb_stays_where_it_is_when_the_limb_is_put_on() {
+    let mut findings = Findings::new();
+    let mut sim = Sim::new(60.0);
+    ground(&mut sim);
+    let entity = human(
+        &mut sim,
+        HumanoidDetail::Bodies19,
+        RagdollMode::Limp,
+        Vec3::Y * 0.2,
+    );
+    sim.seconds(0.5);
+    let [thigh, foot] = ["thigh_r", "foot_r"].map(|n| bone(&sim, entity, n));
+    for entity in [thigh, foot] {
+        sim.app.world_mut().trigger(Dismember { entity });
+    }
+    sim.ticks(1);
+    for (part, way) in [(thigh, Vec3::X), (foot, Vec3::Z)] {
+        let point = sim.position(part);
+        sim.app.world_mut().commands().hit(part, point, way * 12.0);
+    }
+    sim.seconds(3.0);
+    let lay = sim.position(foot);
+    sim.app.world_mut().trigger(Reattach { entity: thigh });
+    sim.ticks(3);
+    let gap = sim.get::<BoneOutput>(thigh).gap;
+    findings.at_most("the thigh is on: gap, m", gap, 0.01);
+    findings.at_most("way of the foot, m", sim.position(foot).distance(lay), 0.02);
+}
