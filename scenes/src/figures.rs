@@ -39,7 +39,7 @@ impl Plugin for Materials {
     }
 }
 
-/// A clip of the human; its number is its place in [`Clip::ALL`].
+/// A clip of the human; in the order of the clips of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clip {
     /// Standing.

@@ -34,7 +34,7 @@ fn stairs() -> FallStation {
         -50.0,
         5.0,
     )
-    .seen(Vec3::new(7.0, 0.0, -3.0), Vec3::new(0.0, 0.0, -1.5))
+    .seen(Vec3::new(-6.0, 0.0, -5.5), Vec3::new(0.0, 0.0, -4.0))
     .ground((0..STEPS).map(step).chain([landing]))
     .cast(|scene| {
         let top = f32::from(STEPS) * STEP.y;
@@ -43,7 +43,7 @@ fn stairs() -> FallStation {
     })
     .steps([
         FallStep::wait("stands at the edge", 0.5),
-        FallStep::once("is pushed into the back with 200 N·s", 7.0, |scene| {
+        FallStep::once("is pushed into the back with 200 Ns", 7.0, |scene| {
             scene.fall(0);
             scene.hit(0, "chest", Vec3::new(0.0, 30.0, -200.0));
         }),
@@ -156,7 +156,7 @@ const CROWD: [u16; 2] = [10, 5];
 
 fn crowd() -> FallStation {
     FallStation::new("crowd", "fifty fall over each other", -84.0, -16.0)
-        .seen(Vec3::new(0.0, 0.0, 9.0), Vec3::ZERO)
+        .seen(Vec3::new(2.5, 0.0, 6.5), Vec3::X * 2.0)
         .cast(|scene| {
             for x in 0..CROWD[0] {
                 for z in 0..CROWD[1] {

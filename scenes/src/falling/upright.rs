@@ -57,10 +57,10 @@ fn range() -> FallStation {
     })
     .steps([
         FallStep::wait("three stand", 0.5),
-        FallStep::once("12 N·s at a forearm", 2.5, |scene| {
+        FallStep::once("12 Ns at a forearm", 2.5, |scene| {
             scene.hit(0, "forearm_l", Vec3::new(0.0, 0.0, -12.0));
         }),
-        FallStep::once("150 N·s at a chest, which throws it down", 0.8, |scene| {
+        FallStep::once("150 Ns at a chest, which throws it down", 0.8, |scene| {
             scene.fall(1);
             scene.hit(1, "chest", Vec3::new(0.0, 20.0, -150.0));
         }),
