@@ -58,7 +58,7 @@ pub(super) fn bear_weight(
     plan: &RagdollPlan,
     slots: &[Option<Slot>],
     gravity: Vec3,
-    carried: &mut Vec<Carried>,
+    carried: &mut [Carried],
     forces: &mut Vec<BoneForce>,
 ) {
     let bears = config.drive.gravity;
