@@ -29,6 +29,9 @@ const LIGHTEST: f32 = 8.0;
 /// within the friction of the floor.
 const FLAT: f32 = 0.97;
 
+/// Faster than this a loose body leaves the floor that it lies on, metres per second.
+const LEAVING: f32 = 1.0;
+
 /// A spring that lies flatter on the ground counts as one at this cosine.
 const LEAST_COSINE: f32 = 0.05;
 
@@ -93,7 +96,12 @@ pub(super) fn build<'a>(
             GroundMotion::Free { body, rigid } if !rigid.sleeping || !same_ground => {
                 let index = grounds.iter().position(|g| g.entity == body);
                 let index = index.unwrap_or_else(|| {
-                    let hold = s.view.hold(body, s.handle, touch.normal, touch.point);
+                    let hold = match s.view.hold(body, s.handle, touch.normal, touch.point) {
+                        // What leaves its floor, as a stone that was squeezed out, is not held by it:
+                        // it would meet the wheel like a rock that comes up.
+                        Hold::Floor(floor) if ground_start.dot(floor) > LEAVING => Hold::Free,
+                        hold => hold,
+                    };
                     grounds.push(ground_body(body, &rigid, hold, touch.normal, own_mass));
                     grounds.len() - 1
                 });

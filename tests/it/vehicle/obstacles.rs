@@ -122,54 +122,94 @@ fn lump(dice: &mut Dice, size: f32) -> Collider {
     Collider::convex_hull(&corners).expect("eight corners of a cube have a hull")
 }
 
+/// A drive over a heap of rubble.
+struct Over {
+    end: Transform,
+    lowest: f32,
+    highest: f32,
+    /// Least cosine of the tilt.
+    tilt: f32,
+    finite: bool,
+}
+
+/// A car rolls at 6 m/s over a hundred lumps, the largest of this size, metres.
+fn over_rubble(hz: f64, probe: WheelProbe, seed: u64, largest: f32) -> Over {
+    let mut sim = Sim::new(hz);
+    plane(&mut sim, Quat::IDENTITY);
+    let mut dice = Dice::new(seed);
+    for i in 0..100 {
+        let size = dice.between(0.1, largest);
+        let at = Vec3::new(
+            (i % 10) as f32 * 0.4 - 1.8 + dice.between(-0.05, 0.05),
+            0.15,
+            -8.0 - (i / 10) as f32 * 0.6,
+        );
+        let turn = Quat::from_rotation_y(dice.between(0.0, 6.0));
+        let mass = 2000.0 * size * size * size * 0.6;
+        sim.dynamic(
+            lump(&mut dice, size),
+            Transform::from_translation(at).with_rotation(turn),
+            mass,
+        );
+    }
+    let plan = Plan::reference()
+        .direct(800.0, |_| true)
+        .wheel(|_, w| w.probe = probe);
+    let car = plan.park(&mut sim, Quat::IDENTITY);
+    sim.seconds(2.0);
+    car.roll(&mut sim, Vec3::NEG_Z * 6.0);
+    car.ask(&mut sim, |i| i.throttle = 0.3);
+    let mut over = Over {
+        end: Transform::IDENTITY,
+        lowest: f32::MAX,
+        highest: f32::MIN,
+        tilt: 1.0,
+        finite: true,
+    };
+    for _ in 0..(5.0 * hz) as usize {
+        sim.ticks(1);
+        let pose = car.pose(&sim);
+        over.lowest = over.lowest.min(pose.translation.y);
+        over.highest = over.highest.max(pose.translation.y);
+        over.tilt = over.tilt.min((pose.rotation * Vec3::Y).y);
+        over.finite &= car.finite(&sim);
+        over.end = pose;
+    }
+    over
+}
+
 #[test]
 fn a_hundred_lumps_of_rubble_neither_throw_nor_stop_a_car() {
     let mut found = Findings::new();
     for hz in RATES {
         for probe in [WheelProbe::Ray, WheelProbe::Cylinder] {
-            let mut sim = Sim::new(hz);
-            plane(&mut sim, Quat::IDENTITY);
-            let mut dice = Dice::new(7);
-            for i in 0..100 {
-                let size = dice.between(0.1, 0.3);
-                let at = Vec3::new(
-                    (i % 10) as f32 * 0.4 - 1.8 + dice.between(-0.05, 0.05),
-                    0.15,
-                    -8.0 - (i / 10) as f32 * 0.6,
-                );
-                let turn = Quat::from_rotation_y(dice.between(0.0, 6.0));
-                let mass = 2000.0 * size * size * size * 0.6;
-                sim.dynamic(
-                    lump(&mut dice, size),
-                    Transform::from_translation(at).with_rotation(turn),
-                    mass,
-                );
-            }
-            let plan = Plan::reference()
-                .direct(800.0, |_| true)
-                .wheel(|_, w| w.probe = probe);
-            let car = plan.park(&mut sim, Quat::IDENTITY);
-            sim.seconds(2.0);
-            car.roll(&mut sim, Vec3::NEG_Z * 6.0);
-            car.ask(&mut sim, |i| i.throttle = 0.3);
-            let (mut lowest, mut highest, mut finite) = (f32::MAX, f32::MIN, true);
-            let mut tilt = 1.0f32;
-            for _ in 0..(5.0 * hz) as usize {
-                sim.ticks(1);
-                let pose = car.pose(&sim);
-                lowest = lowest.min(pose.translation.y);
-                highest = highest.max(pose.translation.y);
-                tilt = tilt.min((pose.rotation * Vec3::Y).y);
-                finite &= car.finite(&sim);
-            }
+            let over = over_rubble(hz, probe, 7, 0.3);
             let case = format!("{hz} Hz {probe:?}");
-            found.at_most(format!("{case}: over"), car.pose(&sim).translation.z, -16.0);
-            found.at_least(format!("{case}: lowest"), lowest, HEIGHT - 0.1);
+            found.at_most(format!("{case}: over"), over.end.translation.z, -16.0);
+            found.at_least(format!("{case}: lowest"), over.lowest, HEIGHT - 0.1);
             // The largest lumps are 27 cm high.
-            found.at_most(format!("{case}: highest"), highest, HEIGHT + 0.27 + THROWN);
+            let highest = HEIGHT + 0.27 + THROWN;
+            found.at_most(format!("{case}: highest"), over.highest, highest);
             // Half of the 55.5° at which it would tip over.
-            found.at_least(format!("{case}: tilt"), tilt, cos(27.7));
-            found.holds(format!("{case}: finite"), finite);
+            found.at_least(format!("{case}: tilt"), over.tilt, cos(27.7));
+            found.holds(format!("{case}: finite"), over.finite);
+        }
+    }
+}
+
+#[test]
+fn no_heap_of_stones_half_as_high_as_a_wheel_throws_a_car() {
+    let mut found = Findings::new();
+    for hz in [30.0, 60.0, 120.0] {
+        for probe in [WheelProbe::Ray, WheelProbe::Cylinder] {
+            for seed in 0..10 {
+                let over = over_rubble(hz, probe, seed * 1000 + 7, 0.15);
+                let case = format!("{hz} Hz {probe:?} heap {seed}");
+                found.at_most(format!("{case}: over"), over.end.translation.z, -16.0);
+                found.at_most(format!("{case}: highest"), over.highest, HEIGHT + 0.15);
+                // One side on the highest stones, the other on the ground: 0.15 m of 1.6.
+                found.at_least(format!("{case}: tilt"), over.tilt, cos(2.0 * 5.4));
+            }
         }
     }
 }

@@ -138,15 +138,22 @@ fn sag(sim: &Sim, planks: &[Entity]) -> f32 {
 #[test]
 fn a_bridge_of_planks_carries_a_car_over() {
     // At 30 ticks per second Rapier's hinges alone are too soft for any load of this weight: see the
-    // test below. With more iterations they hold.
+    // test below. With more iterations they sag as little as at 60, and no plank meets the hull.
     let mut found = Findings::new();
-    for (hz, more) in [(30.0, 12), (60.0, 0), (120.0, 0), (240.0, 0)] {
+    for (hz, more, speed) in [
+        (30.0, 40, 4.0),
+        (30.0, 40, 5.0),
+        (30.0, 40, 6.0),
+        (60.0, 0, 5.0),
+        (120.0, 0, 5.0),
+        (240.0, 0, 5.0),
+    ] {
         let mut sim = Sim::new(hz);
         bridge(&mut sim, more);
         let plan = Plan::reference().direct(600.0, |_| true);
         let car = plan.spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT, 6.0));
         sim.seconds(2.0);
-        car.roll(&mut sim, Vec3::NEG_Z * 5.0);
+        car.roll(&mut sim, Vec3::NEG_Z * speed);
         car.ask(&mut sim, |i| i.throttle = 0.3);
         let mut lowest = f32::MAX;
         let mut highest = f32::MIN;
@@ -156,7 +163,7 @@ fn a_bridge_of_planks_carries_a_car_over() {
             lowest = lowest.min(y);
             highest = highest.max(y);
         }
-        let case = format!("{hz} Hz");
+        let case = format!("{hz} Hz {speed} m/s");
         found.at_most(format!("{case}: over"), car.pose(&sim).translation.z, -12.0);
         found.at_least(format!("{case}: lowest"), lowest, HEIGHT - 1.5);
         found.at_most(format!("{case}: highest"), highest, HEIGHT + 0.5);
