@@ -23,7 +23,7 @@ pub enum EmbodySystems {
     /// After the results are written back: state, events, diagnostics.
     React,
     /// Once per frame in `PostUpdate`, after animation and before transforms are propagated: what is
-    /// shown. No system is in it yet; it is there for bodies that are posed, not moved.
+    /// shown, such as skeletons between their animation and their bodies.
     Present,
 }
 

@@ -9,7 +9,11 @@
 //!
 //! A skeleton is shown by its bones through [`BoneJoint`]s, which [`RagdollFromSkin`] makes of a loaded
 //! figure. Figures are hit ([`HitCommands`]), noticed and frozen when they lie still ([`RagdollRest`]),
-//! get up ([`GetUp`]), and lose limbs ([`Dismember`]).
+//! get up ([`GetUp`]), lose limbs ([`Dismember`]), and stand ([`RagdollBalance`]).
+//!
+//! Floors are best a half-space, a mesh or boxes of some tens of metres: between a capsule and a box of
+//! hundreds of metres the physics engine loses all contacts for single ticks, and a figure on it may
+//! tremble for long. In piles bodies stay awake longer than alone; [`RagdollRest::freeze_after`] ends it.
 
 #[cfg(feature = "serialize")]
 mod asset;
