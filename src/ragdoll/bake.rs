@@ -52,7 +52,12 @@ pub(super) fn unmake(
     mut commands: Commands,
     ragdolls: Query<&Bones>,
     joints: Query<&BoneJoint>,
+    mut states: Query<&mut RagdollState>,
 ) {
+    // What was is nothing to go on from: the entity may be elsewhere when it is a ragdoll again.
+    if let Ok(mut state) = states.get_mut(removed.entity) {
+        *state = RagdollState::default();
+    }
     if let Ok(tied) = ragdolls.get(removed.entity) {
         for bone in tied.iter() {
             if let Ok(joint) = joints.get(bone)

@@ -292,9 +292,10 @@ pub(super) fn drive(
         }
         let plan = plan.bypass_change_detection();
         for (i, slot) in slots.iter().enumerate() {
-            if slot.is_none() && !plan.lost[i] {
+            if slot.is_none() && plan.lost.get(i) == Some(&false) {
                 plan.lost[i] = true;
-                let name = &config.profile.bones[plan.bones[i].index].name;
+                let bone = config.profile.bones.get(plan.bones[i].index);
+                let name = bone.map_or("", |b| b.name.as_str());
                 tracing::warn!(
                     "{entity}: ragdoll: bone \"{name}\" is gone, but nobody said so by Dismember; what \
                      hung on it hangs on nothing"

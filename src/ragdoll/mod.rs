@@ -136,6 +136,7 @@ impl Plugin for RagdollPlugin {
             .add_observer(hit::take)
             .add_observer(sever::note_cut)
             .add_observer(sever::note_joined)
+            .add_observer(balance::forget)
             .add_observer(teleport::carry)
             .init_resource::<ForcedBodies>()
             .init_resource::<PinAnchors>()
@@ -183,7 +184,9 @@ impl Plugin for RagdollPlugin {
                     drive::tie,
                     sever::part,
                     drive::drive,
-                    balance::stand.run_if(any_with_component::<RagdollBalance>),
+                    (balance::check, balance::stand)
+                        .chain()
+                        .run_if(any_with_component::<RagdollBalance>),
                     drive::apply_forces,
                 )
                     .chain()

@@ -130,7 +130,7 @@ pub(super) fn build(
         for (order, bone) in plan.bones.iter().enumerate() {
             let asked = pose.bones.get(bone.index).filter(|p| p.is_sound());
             let place = match &state.bones[order] {
-                known if known.target.is_some() => known.place,
+                known if known.target.is_some() && known.place.is_sound() => known.place,
                 _ => asked.unwrap_or(&bone.bind).seen_from(&figure),
             };
             let name = &config.profile.bones[bone.index].name;

@@ -20,7 +20,8 @@ pub struct RagdollState {
     pub still: f32,
     /// The clip of its [`GetUp`](super::GetUp) that it waits for while it gets up.
     pub rise: Option<usize>,
-    /// Where its entity was after the last tick.
+    /// Where its entity was when the last tick drove it, or was taken to by
+    /// [`FollowRoot`](super::FollowRoot): what a teleport counts from.
     pub figure: BonePose,
     /// Hits that the next tick delivers.
     pub hits: Vec<PendingHit>,

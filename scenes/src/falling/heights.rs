@@ -43,7 +43,7 @@ fn stairs() -> FallStation {
     })
     .steps([
         FallStep::wait("stands at the edge", 0.5),
-        FallStep::once("is pushed into the back with 200 Ns", 7.0, |scene| {
+        FallStep::once("is pushed into the back with 200 Ns", 9.0, |scene| {
             scene.fall(0);
             scene.hit(0, "chest", Vec3::new(0.0, 30.0, -200.0));
         }),

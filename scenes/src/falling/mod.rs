@@ -152,7 +152,8 @@ fn most(trace: &FallTrace, of: impl Fn(&Fallen) -> f32) -> (f64, String) {
     for sample in &trace.samples {
         for figure in &sample.figures {
             let value = of(figure);
-            if !(value <= most) {
+            // What is no number stays.
+            if when.is_empty() || !most.is_nan() && !(value <= most) {
                 most = value;
                 when = format!("{:?} at {:.2} s", figure.mode, sample.time);
             }

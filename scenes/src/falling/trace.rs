@@ -88,7 +88,13 @@ pub fn sample(world: &World, crew: &Crew, place: &Place, ground: &[Block]) -> Fa
         step: 0,
         time: 0.0,
         figures: (crew.figures.iter())
-            .map(|figure| fallen(world, *figure, place, ground).unwrap_or_default())
+            .map(|figure| {
+                // Who cannot be read is nowhere, which ends the run.
+                fallen(world, *figure, place, ground).unwrap_or(Fallen {
+                    root: Vec3::NAN,
+                    ..default()
+                })
+            })
             .collect(),
         props: crew.props.iter().map(at).collect(),
         car,

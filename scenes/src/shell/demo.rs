@@ -48,7 +48,6 @@ struct ScriptedRun;
 
 impl Plugin for ScriptedRun {
     fn build(&self, app: &mut App) {
-        // Only so that the example can spawn what nobody will look at.
         app.init_resource::<Loaded>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
             .add_systems(PreUpdate, hold_keys.after(InputSystems))

@@ -11,7 +11,8 @@ mod motors;
 use bevy::{ecs::system::SystemParam, prelude::*};
 use bevy_rapier3d::{
     plugin::context::{
-        RapierContextEntityLink, RapierContextJoints, RapierContextSimulation, RapierRigidBodySet,
+        RapierContextColliders, RapierContextEntityLink, RapierContextJoints,
+        RapierContextSimulation, RapierRigidBodySet,
     },
     prelude::{RapierConfiguration, RapierRigidBodyHandle},
     rapier::{
@@ -22,6 +23,8 @@ use bevy_rapier3d::{
         math::Pose,
     },
 };
+
+use super::handles::entity_of;
 
 pub(crate) use limits::{AimedRows, JointFrames, JointRows, RowSpring};
 pub(crate) use motors::MotorRows;
@@ -106,6 +109,7 @@ pub(crate) struct JointWorlds<'w, 's> {
             &'static RapierConfiguration,
         ),
     >,
+    colliders: Query<'w, 's, &'static RapierContextColliders>,
     anchors: ResMut<'w, PinAnchors>,
 }
 
@@ -114,6 +118,36 @@ impl JointWorlds<'_, '_> {
     pub fn gravity(&self, link: &RapierContextEntityLink) -> Option<(Vec3, bool)> {
         let (.., config) = self.contexts.get(link.0).ok()?;
         Some((config.gravity, config.physics_pipeline_active))
+    }
+
+    /// Whether a body touches anything that is not of an entity for which `own` holds.
+    pub fn touches(
+        &self,
+        link: &RapierContextEntityLink,
+        handle: &RapierRigidBodyHandle,
+        own: impl Fn(Entity) -> bool,
+    ) -> bool {
+        let Ok((_, bodies, simulation, _)) = self.contexts.get(link.0) else {
+            return false;
+        };
+        let Some(body) = bodies.bodies.get(handle.0) else {
+            return false;
+        };
+        body.colliders().iter().any(|&collider| {
+            let mut pairs = simulation.narrow_phase.contact_pairs_with(collider);
+            pairs.any(|pair| {
+                let other = if pair.collider1 == collider {
+                    pair.collider2
+                } else {
+                    pair.collider1
+                };
+                let entity = self.colliders.get(link.0).ok().and_then(|colliders| {
+                    let collider = colliders.colliders.get(other)?;
+                    Some(entity_of(collider.user_data))
+                });
+                pair.has_any_active_contact() && entity.is_some_and(|entity| !own(entity))
+            })
+        })
     }
 
     /// How many substeps a tick has.

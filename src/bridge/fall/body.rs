@@ -18,6 +18,8 @@ pub(crate) struct OwnBones {
     bones: Vec<Entity>,
     /// Whether capsule and bones were told apart.
     parted: bool,
+    /// Whether the capsule is disabled because it lies, not because the game wants it so.
+    pub(super) disabled: bool,
 }
 
 impl OwnBones {

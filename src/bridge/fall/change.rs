@@ -70,7 +70,7 @@ type Fallen<'a> = (
     ),
     &'a mut Transform,
     &'a RapierContextEntityLink,
-    Has<RigidBodyDisabled>,
+    (Has<RigidBodyDisabled>, &'a mut OwnBones),
 );
 
 /// Takes every character to its next phase.
@@ -80,8 +80,16 @@ pub(super) fn change(
     mut characters: Query<Fallen>,
     bones: Query<&BoneOf>,
 ) {
-    for (entity, config, mut state, (character, mut moves), ragdoll, mut transform, link, off) in
-        &mut characters
+    for (
+        entity,
+        config,
+        mut state,
+        (character, mut moves),
+        ragdoll,
+        mut transform,
+        link,
+        (off, mut own_bones),
+    ) in &mut characters
     {
         let (mut intent, mut figure, plan, clips) = ragdoll;
         if plan.bones.is_empty() {
@@ -102,6 +110,7 @@ pub(super) fn change(
             figure.still = 0.0;
             if !off {
                 commands.entity(entity).insert(RigidBodyDisabled);
+                own_bones.disabled = true;
             }
             continue;
         }
@@ -109,7 +118,9 @@ pub(super) fn change(
         let lies = matches!(state.phase, BodyPhase::Down | BodyPhase::Waiting);
         if lies && !off {
             commands.entity(entity).insert(RigidBodyDisabled);
-        } else if !lies && off {
+            own_bones.disabled = true;
+        } else if !lies && own_bones.disabled {
+            own_bones.disabled = false;
             commands.entity(entity).remove::<RigidBodyDisabled>();
         }
         match state.phase {
@@ -118,7 +129,9 @@ pub(super) fn change(
                 state.bypass_change_detection().velocity = velocity;
             }
             BodyPhase::Down | BodyPhase::Waiting => {
-                let by_itself = config.get_up_after.is_some_and(|t| figure.still >= t);
+                let by_itself = config
+                    .get_up_after
+                    .is_some_and(|t| t >= 0.0 && figure.still >= t);
                 if !state.rises && !by_itself {
                     continue;
                 }
@@ -159,7 +172,10 @@ pub(super) fn change(
                 state.phase = BodyPhase::Rising;
                 state.rises = false;
                 state.velocity = moves.velocity;
-                commands.entity(entity).remove::<RigidBodyDisabled>();
+                if own_bones.disabled {
+                    own_bones.disabled = false;
+                    commands.entity(entity).remove::<RigidBodyDisabled>();
+                }
             }
             BodyPhase::Rising => {
                 state.velocity = moves.world_velocity();
@@ -178,17 +194,17 @@ pub(super) fn change(
 pub(super) fn forget(
     removed: On<Remove, CharacterRagdoll>,
     mut commands: Commands,
-    mut characters: Query<(&CharacterRagdollState, &OwnBones, &mut CharacterIgnores)>,
+    mut characters: Query<(&OwnBones, &mut CharacterIgnores)>,
 ) {
     let entity = removed.entity;
-    let Ok((state, own, mut ignores)) = characters.get_mut(entity) else {
+    let Ok((own, mut ignores)) = characters.get_mut(entity) else {
         return;
     };
     own.release(&mut ignores);
     let Ok(mut entity) = commands.get_entity(entity) else {
         return;
     };
-    if matches!(state.phase, BodyPhase::Down | BodyPhase::Waiting) {
+    if own.disabled {
         entity.try_remove::<RigidBodyDisabled>();
     }
     entity.try_remove::<(CharacterRagdollState, OwnBones)>();

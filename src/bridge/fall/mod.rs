@@ -23,8 +23,8 @@ use body::OwnBones;
 /// ([`FallCommands::recover`]).
 ///
 /// It writes the [`RagdollIntent::mode`](crate::ragdoll::RagdollIntent) when it is added and when its phase
-/// changes, and only then. Its own bones are nothing to its capsule. For characters at the top level of the world whose up
-/// is `+Y`.
+/// changes, and only then. Its own bones are nothing to its capsule. For characters at the top level of
+/// the world whose up is `+Y`.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -42,7 +42,8 @@ pub struct CharacterRagdoll {
     /// both. A crate of 20 kg at 5 m/s has 78 N·s against 70 kg; a door that nothing stops counts as
     /// infinitely heavy.
     pub fall_impulse: Option<f32>,
-    /// It gets up by itself when it has lain still for so long, seconds; `None` when it is told to.
+    /// It gets up by itself when it has lain still for so long, seconds, at least 0; `None` when it is told
+    /// to.
     pub get_up_after: Option<f32>,
 }
 

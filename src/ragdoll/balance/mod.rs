@@ -5,12 +5,14 @@
 //! so. All of it are torques between two bones: nothing pushes the figure from outside, unless
 //! [`RagdollBalance::assist`] says so.
 
+mod check;
 mod pendulum;
 mod stand;
 mod support;
 
 use bevy::prelude::*;
 
+pub(super) use check::{check, forget};
 pub use pendulum::Pendulum;
 pub(super) use stand::stand;
 use support::Support;
@@ -28,10 +30,11 @@ use support::Support;
 #[cfg_attr(feature = "serialize", reflect(Serialize, Deserialize))]
 #[require(BalanceState)]
 pub struct RagdollBalance {
-    /// Names of the bones that it stands on; what they bear, such as toes, belongs to them.
+    /// Names of the bones that it stands on; what they bear, such as toes, belongs to them. Figures of 10
+    /// bodies have no feet.
     pub feet: [String; 2],
     /// How fast the capture point is brought back over the middle of the feet, as a multiple of the rate
-    /// of the fall, above 0.
+    /// of the fall, above 0; with another it does not stand by itself.
     pub gain: f32,
     /// A torque of the world, not of the joints, that holds the root upright, `0..=1`: 0 is none, 1 bears
     /// one and a half times what its weight tips it with.
@@ -61,7 +64,7 @@ pub struct BalanceState {
     /// How far the capture point is inside the area of the feet, metres; negative outside, where feet that
     /// stay in place are not enough.
     pub margin: f32,
-    /// Whether it has a foot on the ground and its torques are at work.
+    /// Whether something bears it, its feet are lowest, and its torques are at work.
     pub stands: bool,
 }
 

@@ -16,6 +16,7 @@ use crate::{
         intent::{RagdollMode, part},
         plan::RagdollPlan,
         profile::BoneShape,
+        sever::is_cut,
         state::RagdollState,
         tick::BoneForce,
     },
@@ -33,7 +34,10 @@ const ASSIST: f32 = 1.5;
 /// Mass, centre of mass and its velocity.
 fn middle(plan: &RagdollPlan, state: &RagdollState) -> (f32, Vec3, Vec3) {
     let (mut mass, mut center, mut velocity) = (0.0, Vec3::ZERO, Vec3::ZERO);
-    for (bone, known) in plan.bones.iter().zip(&state.bones) {
+    for (i, (bone, known)) in plan.bones.iter().zip(&state.bones).enumerate() {
+        if is_cut(plan, state, i) {
+            continue;
+        }
         let arm = known.place.rotation * bone.center;
         mass += bone.mass;
         center += (known.place.position + arm) * bone.mass;
@@ -79,8 +83,14 @@ fn level(point: Vec3) -> Vec2 {
 }
 
 /// The bones of a foot: itself and what it bears.
-fn of_foot(plan: &RagdollPlan, foot: usize) -> impl Iterator<Item = usize> + '_ {
-    (0..plan.bones.len()).filter(move |i| *i == foot || plan.bones[*i].parent == Some(foot))
+fn of_foot<'a>(
+    plan: &'a RagdollPlan,
+    state: &'a RagdollState,
+    foot: usize,
+) -> impl Iterator<Item = usize> + 'a {
+    (0..plan.bones.len())
+        .filter(move |i| *i == foot || plan.bones[*i].parent == Some(foot))
+        .filter(|i| !is_cut(plan, state, *i))
 }
 
 /// Adds the torques by which figures stand.
@@ -112,6 +122,11 @@ pub(in crate::ragdoll) fn stand(
             && state.mode == RagdollMode::Powered
             && state.bones.len() == plan.bones.len()
             && gravity.y < 0.0
+            && balance.gain > 0.0
+            && balance.gain.is_finite()
+            && bones.iter_many(tied.iter()).any(|(_, link, handle)| {
+                worlds.touches(link, handle, |other| tied.iter().any(|bone| bone == other))
+            })
         {
             bear(
                 config,
@@ -150,7 +165,7 @@ fn bear(
 ) {
     let (mass, center, velocity) = middle(plan, state);
     let mut low = f32::MAX;
-    for i in 0..plan.bones.len() {
+    for i in (0..plan.bones.len()).filter(|i| !is_cut(plan, state, *i)) {
         low = sole(plan, state, i).iter().fold(low, |low, p| low.min(p.y));
     }
     let made = plan.bones.iter().map(|b| b.mass * b.bind.position.y);
@@ -172,7 +187,7 @@ fn bear(
         let Some(bone) = plan.bones.iter().position(|b| named(&b)) else {
             continue;
         };
-        let points = of_foot(plan, bone).flat_map(|i| sole(plan, state, i));
+        let points = of_foot(plan, state, bone).flat_map(|i| sole(plan, state, i));
         let area = Support::around(points.filter(|p| p.y < low + TOUCH).map(level));
         if !area.is_empty() {
             let foot = Foot {
@@ -249,7 +264,7 @@ fn of_feet(
 ) -> ArrayVec<Vec2, 48> {
     let mut all = ArrayVec::new();
     for foot in feet {
-        for bone in of_foot(plan, foot.bone) {
+        for bone in of_foot(plan, state, foot.bone) {
             for point in sole(plan, state, bone) {
                 if point.y < low + TOUCH && all.try_push(level(point)).is_err() {
                     return all;

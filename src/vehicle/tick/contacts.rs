@@ -25,8 +25,8 @@ const SLOW: f32 = 2.0;
 /// takes its part, but how much of it only the physics step knows.
 const LIGHTEST: f32 = 8.0;
 
-/// A body lies flat on a floor if its face is turned by less than this cosine: whatever presses on it stays
-/// within the friction of the floor.
+/// A body lies flat on a floor if the cosine between its face and the floor is above this: whatever presses
+/// on it stays within the friction of the floor.
 const FLAT: f32 = 0.97;
 
 /// Faster than this a loose body leaves the floor that it lies on, metres per second.

@@ -77,4 +77,20 @@ fn standing_turns_off_in_the_air_and_when_it_has_fallen() {
     ask(&mut sim, entity, RagdollMode::Powered);
     sim.seconds(0.2);
     findings.holds("lies", !sim.get::<BalanceState>(entity).stands);
+    let high = Vec3::Y * 20.0;
+    let entity = human(
+        &mut sim,
+        HumanoidDetail::Bodies23,
+        RagdollMode::Powered,
+        high,
+    );
+    insert(&mut sim, entity, RagdollBalance::default());
+    sim.seconds(0.5);
+    findings.holds("in the air", !sim.get::<BalanceState>(entity).stands);
+    sim.app
+        .world_mut()
+        .entity_mut(entity)
+        .remove::<RagdollBalance>();
+    let left = sim.app.world().get::<BalanceState>(entity);
+    findings.holds("nothing is left of it", left.is_none());
 }

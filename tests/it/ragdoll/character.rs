@@ -39,6 +39,20 @@ fn phase(sim: &Sim, entity: Entity) -> BodyPhase {
 }
 
 #[test]
+fn a_character_that_the_game_switched_off_stays_so() {
+    let mut sim = Sim::new(60.0);
+    sim.floor(0.0);
+    let entity = person(&mut sim, Vec3::ZERO, CharacterRagdoll::default());
+    insert(&mut sim, entity, RigidBodyDisabled);
+    sim.walk(entity, Vec3::X);
+    sim.seconds(0.5);
+    let mut findings = Findings::new();
+    let off = sim.app.world().get::<RigidBodyDisabled>(entity).is_some();
+    findings.holds("still off", off);
+    findings.at_most("walks, m", sim.position(entity).x, 1.0e-3);
+}
+
+#[test]
 fn its_own_hit_boxes_are_nothing_to_a_character() {
     let walk = |boxes: bool| {
         let mut sim = Sim::new(60.0);

@@ -11,6 +11,10 @@ const KEYS: &[(&str, &str)] = &[
     ("C, Ctrl", "crouch; down when flying"),
     ("F", "fly"),
     ("click, Esc", "mouse looks, mouse is free"),
+    (
+        "click, Shift+click",
+        "while it looks: push what is in the middle, harder",
+    ),
     ("wheel", "camera distance"),
     ("V", "first or third person"),
     (
@@ -25,7 +29,7 @@ const KEYS: &[(&str, &str)] = &[
         "drive, brake and reverse, steer, hand brake",
     ),
     ("U, X", "put the vehicle upright, its helpers on and off"),
-    ("T", "watch the station's own walker or driver"),
+    ("T", "watch the station's own walker, driver or fall"),
     ("R, Shift+R", "back to the start, and reset the course"),
     ("P, O, L", "pause, single tick, slow motion"),
     ("G", "gizmos"),
