@@ -8,7 +8,10 @@
 //! receives is not limited: a truck wins.
 //!
 //! The impulse enters the body before the physics step, and the body's predicted motion with it, so
-//! the solver below sees the same velocity as the character did and finds nothing to correct.
+//! the solver below sees the same velocity as the character did and finds nothing to correct. Whether
+//! anything holds the body up is not known before that step: what the push itself would move it is
+//! followed for [`give`] at most, overlaps from earlier ticks counted, so one that is wedged in stops
+//! the character as a wall does, however light it is.
 
 use bevy::prelude::*;
 
@@ -17,6 +20,16 @@ use crate::backend::neighbourhood::ObstacleKind;
 
 /// Part of an overlap that a push undoes per tick.
 const PRESS: f32 = 0.8;
+
+/// How far a body is followed where only its push moves it, metres, with nothing lost to friction.
+const GIVE: f32 = 5.0e-3;
+/// Deceleration by friction that a body is followed in spite of, metres per second squared.
+const DRAG: f32 = 9.81;
+
+/// How deep a body that was pushed and did not move out of the way may be entered, metres.
+pub(super) fn give(dt: f32) -> f32 {
+    GIVE + DRAG * dt * dt
+}
 
 /// An impulse for a body.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +44,9 @@ pub(crate) struct Impulse {
     pub work: Vec3,
     /// Where, relative to the neighbourhood's origin.
     pub point: Vec3,
+    /// Displacement of the body by the push that counts for the character's velocity beyond what it is
+    /// followed, metres per tick.
+    withheld: Vec3,
 }
 
 impl Solver<'_> {
@@ -83,6 +99,7 @@ impl Solver<'_> {
             mass * self.config.mass / (mass + self.config.mass)
         };
         let full = reduced * closing;
+        let free = body;
         // What stands on a body weighs on it by a force of its own; only a landing is an impact.
         if under_foot && self.grounded {
             return;
@@ -114,6 +131,14 @@ impl Solver<'_> {
         // Work is done evenly over the tick, so half of it counts for the way.
         let linear = (before.linear_velocity + body.linear_velocity) * (0.5 * self.dt);
         let turn = body.angular_velocity * self.dt;
+        let give = give(self.dt);
+        let trust = (1.0 + touch.distance.min(0.0) / give).clamp(0.0, 1.0);
+        // What comes is stopped, what goes is followed, and what the push adds as far as it is trusted.
+        let own = (free.linear_velocity.dot(n) * self.dt).min(0.0);
+        let added = (own - linear.dot(n)).max(0.0);
+        let followed = added.min(trust * give / (1.0 - t));
+        let withheld = n * (followed - added * trust);
+        let linear = linear + n * (added - followed);
         let entity = obstacle.body;
         let center = body.center;
         // All colliders of the body go with it.
@@ -132,6 +157,13 @@ impl Solver<'_> {
             impulse,
             work,
             point,
+            withheld,
         });
+    }
+
+    /// What the velocity may count on of a body's motion beyond what it is followed, metres per tick.
+    pub fn withheld(&self, body: Entity) -> Vec3 {
+        let known = self.impulses.iter().find(|known| known.body == body);
+        known.map_or(Vec3::ZERO, |known| known.withheld)
     }
 }

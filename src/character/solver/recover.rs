@@ -3,7 +3,7 @@
 
 use bevy::prelude::*;
 
-use super::{Solver, TOUCH};
+use super::{Solver, TOUCH, push::give};
 use crate::{
     backend::neighbourhood::ObstacleKind,
     math::planes::{self, HalfSpace, nearest_yielding},
@@ -31,19 +31,22 @@ impl Solver<'_> {
                 continue;
             }
             let depth = -touch.distance - 0.5 * TOUCH;
-            let share = match obstacle.kind {
-                ObstacleKind::Static | ObstacleKind::Kinematic => 1.0,
+            let way = match obstacle.kind {
+                ObstacleKind::Static | ObstacleKind::Kinematic => depth,
                 // The other one does its half.
-                ObstacleKind::Character => 0.5,
-                // A light body is no reason to give way.
-                ObstacleKind::Dynamic => obstacle.dynamics.map_or(1.0, |body| {
-                    let mass = body.effective_mass(touch.point, touch.normal);
-                    mass / (mass + self.config.mass)
-                }),
+                ObstacleKind::Character => 0.5 * depth,
+                // A light body is no reason to give way, unless something else holds it there.
+                ObstacleKind::Dynamic => {
+                    let share = obstacle.dynamics.map_or(1.0, |body| {
+                        let mass = body.effective_mass(touch.point, touch.normal);
+                        mass / (mass + self.config.mass)
+                    });
+                    (depth * share).max(depth - give(self.dt))
+                }
             };
             planes::add(
                 self.planes,
-                HalfSpace::new(touch.normal, (depth * share).min(most), obstacle.kind as u8),
+                HalfSpace::new(touch.normal, way.min(most), obstacle.kind as u8),
             );
         }
         let (x, _) = nearest_yielding(bevy::math::DVec3::ZERO, self.planes);

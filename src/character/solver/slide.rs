@@ -225,8 +225,11 @@ impl Solver<'_> {
         }
         let obstacle = &self.near.obstacles[touch.obstacle as usize];
         let mut pace = obstacle.motion.velocity(touch.point, t).dot(normal);
-        if obstacle.kind == ObstacleKind::Dynamic && !self.config.pushed_by_bodies {
-            pace = pace.min(0.0);
+        if obstacle.kind == ObstacleKind::Dynamic {
+            pace += self.withheld(obstacle.body).dot(normal);
+            if !self.config.pushed_by_bodies {
+                pace = pace.min(0.0);
+            }
         }
         (pace - self.carry.dot(normal)) / self.dt
     }

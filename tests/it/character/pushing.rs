@@ -317,3 +317,84 @@ fn another_character_pushes_the_crate_one_stands_on() {
         );
     }
 }
+
+/// Deepest that a character is in a crate within the next seconds, metres, and how fast it believes to
+/// be at the end.
+fn deepest(sim: &mut Sim, who: Entity, crate_: Entity, seconds: f64) -> (f32, f32) {
+    let ticks = (seconds / f64::from(sim.dt())).round() as usize;
+    let deep = (0..ticks).fold(f32::MIN, |deep, _| {
+        sim.ticks(1);
+        let now = depth_in(sim, who, crate_);
+        if now.is_nan() { now } else { deep.max(now) }
+    });
+    (deep, sim.state(who).velocity.length())
+}
+
+#[test]
+fn a_crate_that_cannot_move_stops_its_pusher_however_light_it_is() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for mass in [0.2, 1.0, 5.0, 10.0, 50.0] {
+            for other in ["wall", "character", "corner"] {
+                let mut push = pushing(hz, mass, 0.5, 0.0, 500.0);
+                match other {
+                    "wall" => {
+                        push.sim
+                            .block(Vec3::new(2.5, 1.0, 0.0), Vec3::new(2.0, 2.0, 6.0));
+                    }
+                    "corner" => {
+                        push.sim
+                            .block(Vec3::new(2.5, 1.0, 0.0), Vec3::new(2.0, 2.0, 6.0));
+                        push.sim
+                            .block(Vec3::new(1.0, 1.0, 1.6), Vec3::new(6.0, 2.0, 2.0));
+                        push.sim.walk(push.pusher, Vec3::new(1.0, 0.0, 0.2));
+                    }
+                    _ => {
+                        let other = runner(&mut push.sim, Vec3::new(3.0, 0.0, 0.0));
+                        push.sim.walk(other, Vec3::NEG_X);
+                    }
+                }
+                if other == "character" {
+                    // Both run the same crate down at once: what counts is how they stand then.
+                    push.sim.seconds(1.0);
+                }
+                let (deep, speed) = deepest(&mut push.sim, push.pusher, push.crate_, 3.0);
+                let case = format!("{hz} Hz, {mass} kg against a {other}");
+                // What friction may hold it up by in a tick, and what the engine lets it be pressed in; what
+                // is nearly weightless goes as deep as the bodies, which are that much smaller.
+                let most = 0.012 + G / (hz * hz) as f32;
+                let most = if mass < 1.0 { most.max(0.0205) } else { most };
+                found.at_most(format!("{case}: inside"), deep, most);
+                if other == "wall" {
+                    found.at_most(format!("{case}: believes to walk at"), speed, 0.5);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn who_lands_on_a_light_crate_stops_on_it() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        // Lighter ones are pressed into the floor: the engine's contacts are as soft as bodies are light.
+        for mass in [1.0, 10.0, 100.0] {
+            let mut push = pushing(hz, mass, 0.5, 0.0, 500.0);
+            push.sim.walk(push.pusher, Vec3::ZERO);
+            let jumper = runner(&mut push.sim, Vec3::new(1.0, 4.0, 0.0));
+            let (deep, _) = deepest(&mut push.sim, jumper, push.crate_, 3.0);
+            let case = format!("{hz} Hz, {mass} kg");
+            found.at_most(
+                format!("{case}: inside"),
+                deep,
+                0.012 + G / (hz * hz) as f32,
+            );
+            found.near(
+                format!("{case}: stands on it"),
+                push.sim.position(jumper).y,
+                1.0,
+                0.01,
+            );
+        }
+    }
+}
