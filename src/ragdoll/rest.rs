@@ -3,12 +3,16 @@
 use bevy::prelude::*;
 
 use super::{
-    bone::Bones,
+    bone::{BoneOutput, Bones, RagdollBone},
     config::Ragdoll,
     intent::{RagdollIntent, RagdollMode},
     plan::RagdollPlan,
     sever::is_cut,
     state::{BoneBody, RagdollState},
+};
+use crate::backend::{
+    handles::{RapierContextEntityLink, RapierRigidBodyHandle},
+    joints::JointWorlds,
 };
 
 /// When a simulated figure counts as lying still.
@@ -17,7 +21,8 @@ use super::{
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct RagdollRest {
     /// The whole is not faster than this, as the root of its mean square speed by mass, metres per
-    /// second, at least 0: a hand that trembles keeps nobody awake.
+    /// second, at least 0: a hand that trembles keeps nobody awake. The physics lets a figure that lies
+    /// still fall asleep while no point of it is faster than four times this.
     pub speed: f32,
     /// For so long, seconds, at least 0.
     pub time: f32,
@@ -35,6 +40,10 @@ impl Default for RagdollRest {
         }
     }
 }
+
+/// No point of a figure that lies still is faster than this many times [`RagdollRest::speed`] when it falls
+/// asleep. What touches sleeps together or not at all: in a pile something always trembles a little.
+const DOZE: f32 = 4.0;
 
 /// It has come to rest. Triggered once, after the tick; again after it has moved.
 #[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,19 +79,24 @@ pub(super) fn is_settled(mode: RagdollMode, state: &RagdollState) -> bool {
 pub(super) fn notice(
     time: Res<Time>,
     mut commands: Commands,
-    mut ragdolls: Query<
-        (
-            Entity,
-            &Ragdoll,
-            &RagdollIntent,
-            &RagdollPlan,
-            &mut RagdollState,
-        ),
-        With<Bones>,
-    >,
+    mut worlds: JointWorlds,
+    mut ragdolls: Query<(
+        Entity,
+        &Ragdoll,
+        &RagdollIntent,
+        &RagdollPlan,
+        &mut RagdollState,
+        &Bones,
+    )>,
+    bones: Query<(
+        &RagdollBone,
+        &BoneOutput,
+        &RapierContextEntityLink,
+        &RapierRigidBodyHandle,
+    )>,
 ) {
     let dt = time.delta_secs();
-    for (entity, config, intent, plan, mut state) in &mut ragdolls {
+    for (entity, config, intent, plan, mut state, tied) in &mut ragdolls {
         let state = state.bypass_change_detection();
         if state.mode == RagdollMode::Frozen && intent.mode == RagdollMode::Limp {
             continue;
@@ -96,6 +110,13 @@ pub(super) fn notice(
             }
         }
         let still = mass > 0.0 && sum <= mass * config.rest.speed * config.rest.speed;
+        let lies = still && state.still + dt >= config.rest.time;
+        for (bone, output, link, handle) in bones.iter_many(tied.iter()) {
+            if output.simulated && !output.asleep {
+                let dozes = lies && !is_cut(plan, state, bone.order);
+                worlds.doze(link, handle, dozes.then_some(DOZE * config.rest.speed));
+            }
+        }
         if !still {
             state.still = 0.0;
             continue;

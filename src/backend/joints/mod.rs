@@ -17,8 +17,8 @@ use bevy_rapier3d::{
     prelude::{RapierConfiguration, RapierRigidBodyHandle},
     rapier::{
         dynamics::{
-            GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, RigidBodyBuilder,
-            RigidBodyHandle, RigidBodyType,
+            GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, RigidBodyActivation,
+            RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
         },
         math::Pose,
     },
@@ -393,6 +393,31 @@ impl JointWorlds<'_, '_> {
             && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
         {
             body.wake_up(true);
+        }
+    }
+
+    /// Lets a body that is awake fall asleep while no point of it moves faster than this, metres per second;
+    /// `None`: as any other body. One that the game keeps awake stays so.
+    pub fn doze(
+        &mut self,
+        link: &RapierContextEntityLink,
+        handle: &RapierRigidBodyHandle,
+        speed: Option<f32>,
+    ) {
+        let Ok((_, mut bodies, simulation, _)) = self.contexts.get_mut(link.0) else {
+            return;
+        };
+        let usual = RigidBodyActivation::default_normalized_linear_threshold();
+        // The engine allows a body to move twice as far in a tick as its threshold says.
+        let unit = 2.0 * simulation.integration_parameters.length_unit;
+        let wanted = speed.map_or(usual, |speed| usual.max(speed / unit));
+        let bodies = &mut bodies.bypass_change_detection().bodies;
+        let differs = bodies.get(handle.0).is_some_and(|body| {
+            let now = body.activation().normalized_linear_threshold;
+            !body.is_sleeping() && now >= 0.0 && now != wanted
+        });
+        if differs && let Some(body) = bodies.get_mut(handle.0) {
+            body.activation_mut().normalized_linear_threshold = wanted;
         }
     }
 
