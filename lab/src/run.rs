@@ -163,7 +163,10 @@ pub fn measure(options: &Options) -> Result<Measured, String> {
         }
     }
     measured.hash = hash(sim.app.world_mut());
-    measured.progress = way.went / way.wished.max(f64::MIN_POSITIVE);
+    // Figures wish to go nowhere.
+    if way.wished > 0.0 {
+        measured.progress = way.went / way.wished;
+    }
     measured.fastest = way.fastest;
     measured.lost = way.lost;
     Ok(measured)

@@ -137,7 +137,9 @@ fn ragdoll() -> Ragdoll {
 }
 
 fn floor(sim: &mut Sim) {
-    sim.block(Vec3::NEG_Y * 0.5, Vec3::new(400.0, 1.0, 400.0));
+    // Not a box of hundreds of metres: between one and a capsule the engine loses contacts for single ticks.
+    let ground = Collider::halfspace(Vec3::Y).expect("the unit of an axis");
+    sim.fixed(ground, Transform::IDENTITY);
 }
 
 /// Where a figure of a pile begins: as in the scene that is measured in the literature, every figure
