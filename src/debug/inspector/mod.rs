@@ -1,10 +1,12 @@
-//! A panel that shows a character or a vehicle live and tunes it.
+//! A panel that shows a character, a vehicle or a ragdoll live and tunes it.
 
 mod edits;
 mod fields;
 mod findings;
 mod panel;
 mod plots;
+#[cfg(feature = "ragdoll")]
+mod ragdoll;
 mod record;
 mod units;
 mod variants;
@@ -21,7 +23,8 @@ use crate::character::{Character, CharacterMotor};
 
 /// The tuning panel: every field of [`Character`] and [`CharacterMotor`] live, plots of speed and
 /// ground state, the last step with its reason, refusals and contacts; every field of a vehicle and
-/// its wheels live, plots of speed, engine, gear, wheel loads, slips and the g-g diagram.
+/// its wheels live, plots of speed, engine, gear, wheel loads, slips and the g-g diagram; every field of
+/// a ragdoll and its bones live, plots of speed, gaps of joints, limits passed and error of the pose.
 ///
 /// It is drawn by `bevy_egui`, which is added if it is not there. Open and close it through
 /// [`InspectorPanel`]; keep the game's own input away from it with `bevy_egui`'s run conditions
@@ -47,6 +50,8 @@ impl Plugin for EmbodyInspectorPlugin {
             );
         #[cfg(feature = "vehicle")]
         vehicle::add(app);
+        #[cfg(feature = "ragdoll")]
+        ragdoll::add(app);
     }
 }
 
@@ -59,6 +64,8 @@ pub struct InspectorPanel {
     pub character: Option<Entity>,
     /// The vehicle to show; `None` shows the one with the lowest entity index.
     pub vehicle: Option<Entity>,
+    /// The ragdoll to show; `None` shows the one with the lowest entity index.
+    pub ragdoll: Option<Entity>,
     /// How far back the plots reach, seconds.
     pub seconds: f64,
 }
@@ -69,6 +76,7 @@ impl Default for InspectorPanel {
             open: true,
             character: None,
             vehicle: None,
+            ragdoll: None,
             seconds: 10.0,
         }
     }

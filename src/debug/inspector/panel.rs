@@ -36,11 +36,16 @@ pub(super) fn show(
     time: Res<Time<Fixed>>,
     characters: Query<(Entity, Shown)>,
     #[cfg(feature = "vehicle")] vehicles: Query<(), With<crate::vehicle::Vehicle>>,
+    #[cfg(feature = "ragdoll")] ragdolls: Query<(), With<crate::ragdoll::Ragdoll>>,
     names: Query<&Name>,
 ) -> Result {
     // Who drives looks at the window of the vehicle.
     #[cfg(feature = "vehicle")]
     if characters.is_empty() && !vehicles.is_empty() {
+        return Ok(());
+    }
+    #[cfg(feature = "ragdoll")]
+    if characters.is_empty() && !ragdolls.is_empty() {
         return Ok(());
     }
     window::show(

@@ -35,6 +35,22 @@ pub(super) fn vehicle_unit(name: &str) -> &'static str {
     }
 }
 
+/// As [`unit`], for the fields of ragdolls and bones.
+#[cfg(feature = "ragdoll")]
+pub(super) fn ragdoll_unit(name: &str) -> &'static str {
+    match name.rsplit('_').next().unwrap_or(name) {
+        "speed" => " m/s",
+        "spin" => " rad/s",
+        "mass" => " kg",
+        "frequency" => " Hz",
+        "fade" | "time" | "after" | "in" | "out" => " s",
+        "radius" => " m",
+        "impulse" => " N s",
+        _ if name.ends_with("max_torque") || name == "friction" => " N m",
+        _ => "",
+    }
+}
+
 /// Whether a field of this name is an angle in radians, better shown in degrees.
 pub(super) fn is_angle(name: &str) -> bool {
     matches!(

@@ -11,6 +11,8 @@ pub(super) enum Subject {
     Character,
     #[cfg(feature = "vehicle")]
     Vehicle,
+    #[cfg(feature = "ragdoll")]
+    Ragdoll,
 }
 
 impl Subject {
@@ -19,6 +21,8 @@ impl Subject {
             Self::Character => "Character",
             #[cfg(feature = "vehicle")]
             Self::Vehicle => "Vehicle",
+            #[cfg(feature = "ragdoll")]
+            Self::Ragdoll => "Ragdoll",
         }
     }
 
@@ -27,6 +31,8 @@ impl Subject {
             Self::Character => "there is no character",
             #[cfg(feature = "vehicle")]
             Self::Vehicle => "there is no vehicle",
+            #[cfg(feature = "ragdoll")]
+            Self::Ragdoll => "there is no ragdoll",
         }
     }
 
@@ -35,6 +41,8 @@ impl Subject {
             Self::Character => &mut panel.character,
             #[cfg(feature = "vehicle")]
             Self::Vehicle => &mut panel.vehicle,
+            #[cfg(feature = "ragdoll")]
+            Self::Ragdoll => &mut panel.ragdoll,
         }
     }
 }
