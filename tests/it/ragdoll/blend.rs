@@ -11,8 +11,7 @@ use super::support::*;
 /// A figure whose bones show the joints of a skeleton below it. Between chest and neck is a joint
 /// without a bone.
 fn skinned(hz: f64, mode: RagdollMode, at: Vec3) -> (Sim, Entity, HashMap<String, Entity>) {
-    let mut sim = Sim::new(hz);
-    let entity = human(&mut sim, HumanoidDetail::Bodies19, mode, at);
+    let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, at);
     let joints = skeleton(&mut sim, entity);
     (sim, entity, joints)
 }

@@ -7,14 +7,8 @@ use embody_scenes::Sim;
 
 use super::support::*;
 
-fn hit(sim: &mut Sim, entity: Entity, point: Vec3, impulse: Vec3) {
-    sim.app.world_mut().commands().hit(entity, point, impulse);
-    sim.app.world_mut().flush();
-}
-
 fn floating(hz: f64, mode: RagdollMode, reaction: Option<HitReaction>) -> (Sim, Entity) {
-    let mut sim = Sim::new(hz);
-    let entity = human(&mut sim, HumanoidDetail::Bodies19, mode, Vec3::Y * 20.0);
+    let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y * 20.0);
     if let Some(reaction) = reaction {
         insert(&mut sim, entity, reaction);
     }
@@ -129,13 +123,8 @@ fn a_hit_takes_strength_with_a_falloff_and_it_comes_back_in_time() {
 fn a_walking_figure_flinches_where_it_is_hit_and_nowhere_else() {
     let mut findings = Findings::new();
     let walk = |hz: f64, shot: bool| {
-        let mut sim = Sim::new(hz);
-        let entity = human(
-            &mut sim,
-            HumanoidDetail::Bodies19,
-            RagdollMode::HitBoxes,
-            Vec3::Y,
-        );
+        let mode = RagdollMode::HitBoxes;
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y);
         insert(
             &mut sim,
             entity,
@@ -148,11 +137,7 @@ fn a_walking_figure_flinches_where_it_is_hit_and_nowhere_else() {
                 ..default()
             },
         );
-        let step = |sim: &mut Sim| {
-            let way = Vec3::NEG_Z * 1.4 * sim.dt();
-            edit::<Transform>(sim, entity, |t| t.translation += way);
-            sim.ticks(1);
-        };
+        let step = |sim: &mut Sim| stride(sim, entity, Vec3::NEG_Z * 1.4);
         for _ in 0..5 {
             step(&mut sim);
         }

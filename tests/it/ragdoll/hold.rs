@@ -165,9 +165,8 @@ fn a_pose_beyond_the_limits_is_taken_as_far_as_they_go_and_lets_it_sleep() {
 fn a_powered_figure_pinned_by_its_pelvis_stays_where_it_is() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let at = Vec3::Y * 3.0;
-        let entity = human(&mut sim, HumanoidDetail::Bodies23, RagdollMode::Powered, at);
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies23, RagdollMode::Powered, at);
         sim.ticks(1);
         let pelvis = bone(&sim, entity, "pelvis");
         edit::<BoneControl>(&mut sim, pelvis, |c| c.pin = 1.0);
@@ -189,10 +188,8 @@ fn a_powered_figure_pinned_by_its_pelvis_stays_where_it_is() {
 fn a_pin_bears_what_hangs_on_it_and_nothing_that_was_cut_off() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let mode = RagdollMode::Powered;
-        let at = Vec3::Y * 60.0;
-        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, at);
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies15, mode, Vec3::Y * 60.0);
         sim.ticks(1);
         let [pelvis, thigh] = ["pelvis", "thigh_l"].map(|n| bone(&sim, entity, n));
         for part in [pelvis, thigh] {

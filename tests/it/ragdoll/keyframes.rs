@@ -22,9 +22,7 @@ fn step(sim: &mut Sim, entity: Entity, tick: usize, speed: f32) {
         ],
     );
     insert(sim, entity, pose);
-    let way = Vec3::NEG_Z * speed * sim.dt();
-    edit::<Transform>(sim, entity, |t| t.translation += way);
-    sim.ticks(1);
+    stride(sim, entity, Vec3::NEG_Z * speed);
 }
 
 /// Greatest distance of a bone from where the pose has it.
@@ -43,13 +41,8 @@ use bevy_embody::ragdoll::BoneState;
 fn with_nothing_in_the_way_every_bone_is_where_the_pose_is() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
-        let entity = human(
-            &mut sim,
-            HumanoidDetail::Bodies19,
-            RagdollMode::Keyframed,
-            Vec3::Y,
-        );
+        let mode = RagdollMode::Keyframed;
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y);
         let mut worst = 0.0f32;
         for tick in 0..(hz * 2.0) as usize {
             step(&mut sim, entity, tick, 2.0);
@@ -65,14 +58,8 @@ fn with_nothing_in_the_way_every_bone_is_where_the_pose_is() {
 fn what_is_loose_is_shoved_aside_and_what_is_fixed_holds_until_the_way_is_free() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
-        sim.floor(0.0);
-        let entity = human(
-            &mut sim,
-            HumanoidDetail::Bodies19,
-            RagdollMode::Keyframed,
-            Vec3::Y * 0.05,
-        );
+        let mode = RagdollMode::Keyframed;
+        let (mut sim, entity) = above_ground(hz, HumanoidDetail::Bodies19, mode, 0.05);
         let crate_ = sim.dynamic(
             Collider::cuboid(0.2, 0.2, 0.2),
             Transform::from_xyz(0.0, 0.2, -1.0),
@@ -110,9 +97,8 @@ fn what_is_loose_is_shoved_aside_and_what_is_fixed_holds_until_the_way_is_free()
 fn a_figure_that_was_animated_elsewhere_is_keyframed_from_where_it_was_animated_to() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let mode = RagdollMode::Animated;
-        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::Y * 2.0);
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies15, mode, Vec3::Y * 2.0);
         sim.ticks(2);
         // Far from where its bodies were built.
         edit::<Transform>(&mut sim, entity, |t| {
@@ -132,8 +118,7 @@ fn a_figure_that_was_animated_elsewhere_is_keyframed_from_where_it_was_animated_
 fn a_keyframed_figure_does_not_run_away_from_itself() {
     let mut findings = Findings::new();
     for mode in [RagdollMode::Keyframed, RagdollMode::Partial] {
-        let mut sim = Sim::new(60.0);
-        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::Y * 2.0);
+        let (mut sim, entity) = alone(60.0, HumanoidDetail::Bodies15, mode, Vec3::Y * 2.0);
         insert(&mut sim, entity, FollowRoot);
         let profile = sim.get::<Ragdoll>(entity).profile;
         // The pose leans, and stands off its origin.

@@ -65,13 +65,8 @@ fn a_limp_figure_falls_and_sleeps_within_four_seconds_of_the_impact() {
 fn a_figure_in_free_flight_keeps_its_momentum() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
-        let entity = human(
-            &mut sim,
-            HumanoidDetail::Bodies19,
-            RagdollMode::Limp,
-            Vec3::Y * 50.0,
-        );
+        let mode = RagdollMode::Limp;
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y * 50.0);
         let damping_off = |sim: &mut Sim| {
             for part in bones(sim, entity) {
                 insert(sim, part, Damping::default());
@@ -197,22 +192,15 @@ fn a_state_written_to_a_file_goes_on_in_another_world() {
     let mut findings = Findings::new();
     for hz in RATES {
         for mode in [RagdollMode::Limp, RagdollMode::Powered] {
-            let spin = |sim: &mut Sim, entity: Entity| {
-                let foot = bone(sim, entity, "foot_l");
-                let impulse = Vec3::new(20.0, 5.0, 0.0);
-                let point = sim.position(foot);
-                sim.app.world_mut().commands().hit(foot, point, impulse);
-            };
-            let mut sim = Sim::new(hz);
             let at = Vec3::Y * 40.0;
-            let entity = human(&mut sim, HumanoidDetail::Bodies19, mode, at);
+            let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, at);
             sim.ticks(2);
-            spin(&mut sim, entity);
+            let foot = bone(&sim, entity, "foot_l");
+            push(&mut sim, foot, Vec3::new(20.0, 5.0, 0.0));
             sim.seconds(0.5);
             let saved = serde_json::to_string(&sim.get::<RagdollState>(entity)).unwrap();
             sim.seconds(0.5);
-            let mut other = Sim::new(hz);
-            let again = human(&mut other, HumanoidDetail::Bodies19, mode, at);
+            let (mut other, again) = alone(hz, HumanoidDetail::Bodies19, mode, at);
             // Elsewhere, and otherwise on its way, before it is restored.
             other.ticks(7);
             let state: RagdollState = serde_json::from_str(&saved).unwrap();
@@ -235,14 +223,8 @@ fn a_state_written_to_a_file_goes_on_in_another_world() {
 
 #[test]
 fn a_bone_despawned_in_flight_disturbs_nothing_else() {
-    let mut sim = Sim::new(60.0);
-    ground(&mut sim);
-    let entity = human(
-        &mut sim,
-        HumanoidDetail::Bodies19,
-        RagdollMode::Powered,
-        Vec3::Y,
-    );
+    let mode = RagdollMode::Powered;
+    let (mut sim, entity) = above_ground(60.0, HumanoidDetail::Bodies19, mode, 1.0);
     sim.seconds(0.2);
     let arm = bone(&sim, entity, "upper_arm_r");
     sim.app.world_mut().despawn(arm);
@@ -270,14 +252,8 @@ fn a_refused_ragdoll_has_no_bones_until_it_is_mended() {
 #[test]
 fn the_same_figure_falls_the_same_way_twice() {
     let fall = || {
-        let mut sim = Sim::new(60.0);
-        ground(&mut sim);
-        let entity = human(
-            &mut sim,
-            HumanoidDetail::Bodies19,
-            RagdollMode::Limp,
-            Vec3::Y * 0.4,
-        );
+        let mode = RagdollMode::Limp;
+        let (mut sim, entity) = above_ground(60.0, HumanoidDetail::Bodies19, mode, 0.4);
         let mut seen = Vec::new();
         for _ in 0..120 {
             sim.ticks(1);
@@ -327,14 +303,8 @@ fn interpolation_between_ticks_does_not_disturb_the_fall() {
 
 #[test]
 fn nobody_wakes_a_figure_that_sleeps_in_its_pose() {
-    let mut sim = Sim::new(60.0);
-    ground(&mut sim);
-    let entity = human(
-        &mut sim,
-        HumanoidDetail::Bodies19,
-        RagdollMode::Limp,
-        Vec3::Y * 0.1,
-    );
+    let mode = RagdollMode::Limp;
+    let (mut sim, entity) = above_ground(60.0, HumanoidDetail::Bodies19, mode, 0.1);
     sim.seconds(6.0);
     let mut findings = Findings::new();
     let asleep = |sim: &Sim| outputs(sim, entity).iter().all(|o| o.asleep);
@@ -349,9 +319,8 @@ fn nobody_wakes_a_figure_that_sleeps_in_its_pose() {
 #[test]
 fn a_state_restored_into_animation_leaves_no_body_behind() {
     let mut findings = Findings::new();
-    let mut sim = Sim::new(60.0);
     let mode = RagdollMode::Animated;
-    let entity = human(&mut sim, HumanoidDetail::Bodies10, mode, Vec3::Y * 5.0);
+    let (mut sim, entity) = alone(60.0, HumanoidDetail::Bodies10, mode, Vec3::Y * 5.0);
     sim.ticks(3);
     let saved = sim.get::<RagdollState>(entity);
     ask(&mut sim, entity, RagdollMode::Limp);
@@ -373,9 +342,8 @@ fn a_state_restored_into_animation_leaves_no_body_behind() {
 fn a_figure_spawned_with_a_saved_state_goes_on_from_there() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let at = Vec3::Y * 40.0;
-        let entity = human(&mut sim, HumanoidDetail::Bodies15, RagdollMode::Limp, at);
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies15, RagdollMode::Limp, at);
         sim.seconds(0.5);
         let saved = sim.get::<RagdollState>(entity);
         let ragdoll = sim.get::<Ragdoll>(entity);
@@ -398,9 +366,8 @@ fn a_figure_spawned_with_a_saved_state_goes_on_from_there() {
 fn a_component_that_is_written_every_tick_builds_nothing_anew() {
     let mut findings = Findings::new();
     let run = |writes: bool| {
-        let mut sim = Sim::new(60.0);
         let mode = RagdollMode::Powered;
-        let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::Y * 5.0);
+        let (mut sim, entity) = alone(60.0, HumanoidDetail::Bodies15, mode, Vec3::Y * 5.0);
         sim.ticks(2);
         let built = bones(&sim, entity);
         let mut seen = Vec::new();
@@ -431,9 +398,8 @@ fn a_component_that_is_written_every_tick_builds_nothing_anew() {
 #[test]
 fn another_tick_rate_gets_its_substeps() {
     let mut findings = Findings::new();
-    let mut sim = Sim::new(120.0);
     let mode = RagdollMode::Limp;
-    let entity = human(&mut sim, HumanoidDetail::Bodies10, mode, Vec3::Y * 5.0);
+    let (mut sim, entity) = alone(120.0, HumanoidDetail::Bodies10, mode, Vec3::Y * 5.0);
     sim.ticks(3);
     let extra = |sim: &Sim| {
         let all = bones(sim, entity);
@@ -490,16 +456,13 @@ fn the_solver_is_as_it_was_when_the_last_figure_is_gone() {
 fn energy_of_a_limp_figure_never_rises() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
         let mode = RagdollMode::Limp;
-        let entity = human(&mut sim, HumanoidDetail::Bodies19, mode, Vec3::Y * 20.0);
+        let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y * 20.0);
         sim.ticks(2);
         let mut dice = Dice::new(5);
         for name in ["foot_l", "hand_r", "head"] {
             let part = bone(&sim, entity, name);
-            let point = sim.position(part);
-            let impulse = dice.direction() * 12.0;
-            sim.app.world_mut().commands().hit(part, point, impulse);
+            push(&mut sim, part, dice.direction() * 12.0);
         }
         sim.ticks(2);
         let energy = |sim: &Sim| -> f32 {

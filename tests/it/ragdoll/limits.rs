@@ -8,7 +8,6 @@ use bevy_rapier3d::prelude::ExternalForce;
 use super::support::*;
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
-use embody_scenes::Sim;
 
 fn kinds() -> [(&'static str, JointKind, Quat); 7] {
     let across = Quat::IDENTITY;
@@ -76,25 +75,13 @@ fn worst_of(
     spin: Vec3,
     torque: Vec3,
 ) -> (f32, f32) {
-    let mut sim = Sim::new(hz);
     let joint = JointProfile {
         kind,
         frame,
         friction: 0.0,
         ..default()
     };
-    let ragdoll = Ragdoll {
-        conditioning: 0.0,
-        ..Ragdoll::new(arm(joint), 4.0)
-    };
-    let intent = RagdollIntent {
-        mode: RagdollMode::Partial,
-        strength: 0.0,
-    };
-    let entity = sim.spawn((ragdoll, intent, Transform::from_rotation(attitude)));
-    sim.ticks(1);
-    let limb = bone(&sim, entity, "arm");
-    edit::<BoneControl>(&mut sim, limb, |c| c.simulated = true);
+    let (mut sim, _, limb) = hung(hz, joint, 0.0, Transform::from_rotation(attitude));
     sim.ticks(1);
     // Not in the tick of the switch, which keeps the velocity that it had: none.
     if spin != Vec3::ZERO {
@@ -164,19 +151,11 @@ fn a_thigh_pushed_by_fifty_newton_metres_stays_within_five_degrees() {
         let mut dice = Dice::new(3);
         let mut worst_of_all = 0.0f32;
         for _ in 0..12 {
-            let mut sim = Sim::new(hz);
-            let entity = human(
-                &mut sim,
-                HumanoidDetail::Bodies19,
-                RagdollMode::Partial,
-                Vec3::Y * 2.0,
-            );
+            let mode = RagdollMode::Partial;
+            let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y * 2.0);
             edit::<RagdollIntent>(&mut sim, entity, |i| i.strength = 0.0);
             sim.ticks(1);
-            for name in ["thigh_l", "shin_l", "foot_l"] {
-                let part = bone(&sim, entity, name);
-                edit::<BoneControl>(&mut sim, part, |c| c.simulated = true);
-            }
+            simulate(&mut sim, entity, ["thigh_l", "shin_l", "foot_l"]);
             let thigh = bone(&sim, entity, "thigh_l");
             let torque = dice.direction() * 50.0;
             insert(
@@ -204,25 +183,13 @@ fn a_gliding_joint_slides_as_far_as_it_may_and_does_not_turn() {
         reach: Vec2::new(0.02, 0.0),
     };
     for (direction, way) in [(Vec3::X, 0.02), (Vec3::Z, 0.0), (Vec3::Y, 0.0)] {
-        let mut sim = Sim::new(60.0);
         let joint = JointProfile {
             kind,
-            frame: along_arm() * Quat::from_rotation_x(0.0),
+            frame: along_arm(),
             friction: 0.0,
             ..default()
         };
-        let entity = figure(
-            &mut sim,
-            Ragdoll {
-                conditioning: 0.0,
-                ..Ragdoll::new(arm(joint), 4.0)
-            },
-            RagdollMode::Partial,
-            Vec3::ZERO,
-        );
-        sim.ticks(1);
-        let limb = bone(&sim, entity, "arm");
-        edit::<BoneControl>(&mut sim, limb, |c| c.simulated = true);
+        let (mut sim, _, limb) = hung(60.0, joint, 1.0, Transform::IDENTITY);
         insert(
             &mut sim,
             limb,
@@ -246,7 +213,6 @@ fn a_gliding_joint_slides_as_far_as_it_may_and_does_not_turn() {
 fn a_soft_limit_gives_by_its_spring_and_comes_back() {
     let mut findings = Findings::new();
     let lean = |softness: Option<JointSoftness>| {
-        let mut sim = Sim::new(60.0);
         let joint = JointProfile {
             kind: JointKind::Hinge {
                 min: -0.2,
@@ -257,19 +223,7 @@ fn a_soft_limit_gives_by_its_spring_and_comes_back() {
             softness,
             ..default()
         };
-        let entity = figure(
-            &mut sim,
-            Ragdoll {
-                conditioning: 0.0,
-                ..Ragdoll::new(arm(joint), 4.0)
-            },
-            RagdollMode::Partial,
-            Vec3::ZERO,
-        );
-        edit::<RagdollIntent>(&mut sim, entity, |i| i.strength = 0.0);
-        sim.ticks(1);
-        let limb = bone(&sim, entity, "arm");
-        edit::<BoneControl>(&mut sim, limb, |c| c.simulated = true);
+        let (mut sim, _, limb) = hung(60.0, joint, 0.0, Transform::IDENTITY);
         insert(
             &mut sim,
             limb,

@@ -37,11 +37,7 @@ fn a_figure_that_has_fallen_is_noticed_once_and_again_after_it_was_pushed() {
         sim.seconds(7.0);
         findings.near(format!("{hz} Hz: after it"), count(&sim), 1.0, 0.0);
         let chest = bone(&sim, entity, "chest");
-        let point = sim.position(chest);
-        sim.app
-            .world_mut()
-            .commands()
-            .hit(chest, point, Vec3::X * 80.0);
+        push(&mut sim, chest, Vec3::X * 80.0);
         sim.seconds(0.2);
         findings.near(
             format!("{hz} Hz: still time"),
@@ -150,11 +146,7 @@ fn a_figure_freezes_when_that_is_due_and_thaws_when_it_is_hit() {
         outputs(&sim, entity).iter().all(|o| !o.simulated),
     );
     let chest = bone(&sim, entity, "chest");
-    let point = sim.position(chest);
-    sim.app
-        .world_mut()
-        .commands()
-        .hit(chest, point, Vec3::X * 60.0);
+    push(&mut sim, chest, Vec3::X * 60.0);
     sim.ticks(1);
     let (after, mass) = momentum(&sim, entity);
     findings.at_least("speed after the hit, m/s", after.x / mass, 0.5);

@@ -18,13 +18,8 @@ fn what_is_cut_off_keeps_place_and_velocity_and_falls_limp() {
             RagdollMode::Powered,
             RagdollMode::HitBoxes,
         ] {
-            let mut sim = Sim::new(hz);
-            let entity = human(&mut sim, HumanoidDetail::Bodies19, mode, Vec3::Y * 20.0);
-            let step = |sim: &mut Sim| {
-                let way = Vec3::NEG_Z * 3.0 * sim.dt();
-                edit::<Transform>(sim, entity, |t| t.translation += way);
-                sim.ticks(1);
-            };
+            let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies19, mode, Vec3::Y * 20.0);
+            let step = |sim: &mut Sim| stride(sim, entity, Vec3::NEG_Z * 3.0);
             for _ in 0..10 {
                 step(&mut sim);
             }
@@ -74,24 +69,14 @@ fn what_is_cut_off_keeps_place_and_velocity_and_falls_limp() {
 fn what_is_put_on_again_is_at_its_joint_and_stays_there() {
     let mut findings = Findings::new();
     for hz in RATES {
-        let mut sim = Sim::new(hz);
-        sim.floor(0.0);
-        let entity = human(
-            &mut sim,
-            HumanoidDetail::Bodies19,
-            RagdollMode::Limp,
-            Vec3::Y * 0.2,
-        );
+        let mode = RagdollMode::Limp;
+        let (mut sim, entity) = above_ground(hz, HumanoidDetail::Bodies19, mode, 0.2);
         sim.seconds(0.5);
         let thigh = bone(&sim, entity, "thigh_r");
         let shin = bone(&sim, entity, "shin_r");
         sim.app.world_mut().trigger(Dismember { entity: thigh });
         sim.ticks(1);
-        let point = sim.position(shin);
-        sim.app
-            .world_mut()
-            .commands()
-            .hit(shin, point, Vec3::new(60.0, 30.0, 0.0));
+        push(&mut sim, shin, Vec3::new(60.0, 30.0, 0.0));
         sim.seconds(1.5);
         let apart = sim
             .position(thigh)
@@ -126,31 +111,21 @@ fn a_joint_bears_what_it_can_and_parts_under_what_it_cannot_when_it_lasts() {
             // A blow of a tick is far more than it bears, but does not last.
             (60.0, 0.1, Some(4.0), false),
         ] {
-            let mut sim = Sim::new(hz);
+            let joint = JointProfile {
+                breaks: Some(JointBreak { force, time }),
+                ..default()
+            };
+            let at = Transform::from_xyz(0.0, 50.0, 0.0);
+            let (mut sim, _, limb) = hung(hz, joint, 1.0, at);
             sim.app.init_resource::<Broken>();
             sim.app
                 .add_observer(|broke: On<JointBroke>, mut all: ResMut<Broken>| {
                     all.0.push((broke.entity, broke.force));
                 });
-            let joint = JointProfile {
-                breaks: Some(JointBreak { force, time }),
-                ..default()
-            };
-            let ragdoll = Ragdoll {
-                conditioning: 0.0,
-                ..Ragdoll::new(arm(joint), 4.0)
-            };
-            let entity = figure(&mut sim, ragdoll, RagdollMode::Partial, Vec3::Y * 50.0);
-            sim.ticks(1);
-            let limb = bone(&sim, entity, "arm");
-            edit::<BoneControl>(&mut sim, limb, |c| c.simulated = true);
             if let Some(push) = push {
                 sim.seconds(0.5);
                 let point = sim.position(limb) + Vec3::NEG_Y * 0.15;
-                sim.app
-                    .world_mut()
-                    .commands()
-                    .hit(limb, point, Vec3::NEG_Y * push);
+                hit(&mut sim, limb, point, Vec3::NEG_Y * push);
             }
             sim.seconds(1.0);
             let broken = sim.app.world().resource::<Broken>().0.clone();
@@ -173,13 +148,8 @@ fn a_joint_bears_what_it_can_and_parts_under_what_it_cannot_when_it_lasts() {
 
 #[test]
 fn the_root_cannot_be_cut_off_and_a_stranger_not_at_all() {
-    let mut sim = Sim::new(60.0);
-    let entity = human(
-        &mut sim,
-        HumanoidDetail::Bodies10,
-        RagdollMode::Limp,
-        Vec3::Y * 5.0,
-    );
+    let mode = RagdollMode::Limp;
+    let (mut sim, entity) = alone(60.0, HumanoidDetail::Bodies10, mode, Vec3::Y * 5.0);
     sim.ticks(2);
     let pelvis = bone(&sim, entity, "pelvis");
     let stranger = sim.spawn(());
@@ -195,14 +165,8 @@ fn the_root_cannot_be_cut_off_and_a_stranger_not_at_all() {
 #[test]
 fn what_was_cut_off_from_a_limb_stays_where_it_is_when_the_limb_is_put_on() {
     let mut findings = Findings::new();
-    let mut sim = Sim::new(60.0);
-    ground(&mut sim);
-    let entity = human(
-        &mut sim,
-        HumanoidDetail::Bodies19,
-        RagdollMode::Limp,
-        Vec3::Y * 0.2,
-    );
+    let mode = RagdollMode::Limp;
+    let (mut sim, entity) = above_ground(60.0, HumanoidDetail::Bodies19, mode, 0.2);
     sim.seconds(0.5);
     let [thigh, foot] = ["thigh_r", "foot_r"].map(|n| bone(&sim, entity, n));
     for entity in [thigh, foot] {
@@ -210,8 +174,7 @@ fn what_was_cut_off_from_a_limb_stays_where_it_is_when_the_limb_is_put_on() {
     }
     sim.ticks(1);
     for (part, way) in [(thigh, Vec3::X), (foot, Vec3::Z)] {
-        let point = sim.position(part);
-        sim.app.world_mut().commands().hit(part, point, way * 12.0);
+        push(&mut sim, part, way * 12.0);
     }
     sim.seconds(3.0);
     let lay = sim.position(foot);

@@ -18,6 +18,48 @@ pub fn figure(sim: &mut Sim, ragdoll: Ragdoll, mode: RagdollMode, at: Vec3) -> E
     sim.spawn((ragdoll, intent, Transform::from_translation(at)))
 }
 
+/// A world with nothing in it but such a figure.
+pub fn alone(hz: f64, detail: HumanoidDetail, mode: RagdollMode, at: Vec3) -> (Sim, Entity) {
+    let mut sim = Sim::new(hz);
+    let entity = human(&mut sim, detail, mode, at);
+    (sim, entity)
+}
+
+/// The same over level ground, with its feet at this height.
+pub fn above_ground(hz: f64, detail: HumanoidDetail, mode: RagdollMode, at: f32) -> (Sim, Entity) {
+    let mut sim = Sim::new(hz);
+    ground(&mut sim);
+    let entity = human(&mut sim, detail, mode, Vec3::Y * at);
+    (sim, entity)
+}
+
+/// Moves a figure on by one tick at this velocity, metres per second.
+pub fn stride(sim: &mut Sim, ragdoll: Entity, velocity: Vec3) {
+    let way = velocity * sim.dt();
+    edit::<Transform>(sim, ragdoll, |t| t.translation += way);
+    sim.ticks(1);
+}
+
+/// Hits a bone, or of a figure the nearest one.
+pub fn hit(sim: &mut Sim, entity: Entity, point: Vec3, impulse: Vec3) {
+    sim.app.world_mut().commands().hit(entity, point, impulse);
+    sim.app.world_mut().flush();
+}
+
+/// Hits a bone at its joint.
+pub fn push(sim: &mut Sim, bone: Entity, impulse: Vec3) {
+    let point = sim.position(bone);
+    hit(sim, bone, point, impulse);
+}
+
+/// Lets bones be simulated while the figure is [`RagdollMode::Partial`].
+pub fn simulate<'a>(sim: &mut Sim, ragdoll: Entity, names: impl IntoIterator<Item = &'a str>) {
+    for name in names {
+        let part = bone(sim, ragdoll, name);
+        edit::<BoneControl>(sim, part, |c| c.simulated = true);
+    }
+}
+
 pub fn ask(sim: &mut Sim, ragdoll: Entity, mode: RagdollMode) {
     edit::<RagdollIntent>(sim, ragdoll, |intent| intent.mode = mode);
 }
@@ -145,6 +187,24 @@ pub fn arm(joint: JointProfile) -> RagdollProfile {
         ],
         no_contact: vec![],
     }
+}
+
+/// The [`arm`] with its joint, held at the block in this place and driven with this strength. Also the limb.
+pub fn hung(hz: f64, joint: JointProfile, strength: f32, at: Transform) -> (Sim, Entity, Entity) {
+    let mut sim = Sim::new(hz);
+    let ragdoll = Ragdoll {
+        conditioning: 0.0,
+        ..Ragdoll::new(arm(joint), 4.0)
+    };
+    let intent = RagdollIntent {
+        mode: RagdollMode::Partial,
+        strength,
+    };
+    let entity = sim.spawn((ragdoll, intent, at));
+    sim.ticks(1);
+    simulate(&mut sim, entity, ["arm"]);
+    let limb = bone(&sim, entity, "arm");
+    (sim, entity, limb)
 }
 
 /// Axes with X pointing down, along the arm.

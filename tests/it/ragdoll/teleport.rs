@@ -2,7 +2,6 @@
 
 use bevy::prelude::*;
 use bevy_embody::prelude::*;
-use embody_scenes::Sim;
 
 use super::support::*;
 
@@ -17,8 +16,7 @@ fn a_teleported_figure_is_there_in_whatever_mode_with_the_velocity_it_had() {
             RagdollMode::Frozen,
             RagdollMode::Animated,
         ] {
-            let mut sim = Sim::new(hz);
-            let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::Y * 30.0);
+            let (mut sim, entity) = alone(hz, HumanoidDetail::Bodies15, mode, Vec3::Y * 30.0);
             sim.seconds(0.3);
             let before = sim.get::<RagdollState>(entity);
             let way = Vec3::new(50.0, 3.0, -20.0);
