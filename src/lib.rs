@@ -110,13 +110,13 @@ pub mod prelude {
     #[cfg(feature = "ragdoll")]
     #[doc(hidden)]
     pub use crate::ragdoll::{
-        BakeRagdoll, BalanceState, BodyPart, BoneControl, BoneJoint, BoneMass, BoneOf, BoneOutput,
-        BonePose, BoneProfile, BoneShape, BoneSource, Bones, CameToRest, Dismember, FollowRoot,
-        GetUp, GetUpClip, GetsUp, HitCommands, HitReaction, HumanoidDetail, HumanoidRig,
-        JointBreak, JointBroke, JointKind, JointProfile, JointSoftness, Ragdoll, RagdollBalance,
-        RagdollBlend, RagdollBone, RagdollDrive, RagdollFromSkin, RagdollHit, RagdollIntent,
-        RagdollMode, RagdollPlugin, RagdollPose, RagdollProfile, RagdollReady, RagdollRest,
-        RagdollState, Reattach,
+        BakeRagdoll, BalanceState, BodyPart, BoneControl, BoneGroups, BoneJoint, BoneMass, BoneOf,
+        BoneOutput, BonePose, BoneProfile, BoneShape, BoneSource, Bones, CameToRest, Dismember,
+        FollowRoot, GetUp, GetUpClip, GetsUp, HitCommands, HitReaction, HumanoidDetail,
+        HumanoidRig, JointBreak, JointBroke, JointKind, JointProfile, JointSoftness, Ragdoll,
+        RagdollBalance, RagdollBlend, RagdollBone, RagdollDrive, RagdollFromSkin, RagdollHit,
+        RagdollIntent, RagdollMode, RagdollPlugin, RagdollPose, RagdollProfile, RagdollReady,
+        RagdollRest, RagdollState, RagdollUp, Reattach,
     };
     #[cfg(feature = "vehicle")]
     #[doc(hidden)]

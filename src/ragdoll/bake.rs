@@ -1,6 +1,6 @@
 //! Baking: a figure that lies for good becomes a pose, without bodies, joints or cost.
 
-use bevy::prelude::*;
+use bevy::{prelude::*, transform::helper::TransformHelper};
 
 use super::{
     blend::{AnimatedJoint, BoneJoint},
@@ -25,20 +25,32 @@ pub struct BakeRagdoll {
 pub(super) fn bake(
     baked: On<BakeRagdoll>,
     mut commands: Commands,
-    mut ragdolls: Query<(&RagdollPlan, &RagdollState, &Transform, &mut RagdollPose)>,
+    helper: TransformHelper,
+    mut ragdolls: Query<(&RagdollPlan, &RagdollState, &mut RagdollPose)>,
 ) {
     let entity = baked.entity;
-    let Ok((plan, state, figure, mut pose)) = ragdolls.get_mut(entity) else {
+    let (Ok((plan, state, mut pose)), Ok(figure)) = (
+        ragdolls.get_mut(entity),
+        helper.compute_global_transform(entity),
+    ) else {
         tracing::warn!("{entity}: it was to be baked, but is no ragdoll");
         return;
     };
-    let back = figure.rotation.inverse();
-    pose.bones.clear();
-    pose.bones.resize(plan.bones.len(), BonePose::default());
-    for (bone, known) in plan.bones.iter().zip(&state.bones) {
+    let (_, rotation, translation) = figure.to_scale_rotation_translation();
+    let back = rotation.inverse();
+    // What has not been anywhere yet stays as it is asked for.
+    let been = plan.bones.iter().zip(&state.bones);
+    for (bone, known) in been.filter(|(_, known)| known.target.is_some()) {
+        if pose.bones.len() < plan.bones.len() {
+            let asked = pose.bones.len();
+            pose.bones.resize(plan.bones.len(), BonePose::default());
+            for planned in plan.bones.iter().filter(|b| b.index >= asked) {
+                pose.bones[planned.index] = planned.bind;
+            }
+        }
         if let Some(pose) = pose.bones.get_mut(bone.index) {
             *pose = BonePose {
-                position: back * (known.place.position - figure.translation),
+                position: back * (known.place.position - translation),
                 rotation: (back * known.place.rotation).normalize(),
             };
         }

@@ -8,10 +8,13 @@
 //! What the animation wrote is kept beside what is shown, so that the next tick aims at the animation
 //! and not at the mix, also where the animation stands still and writes nothing.
 
-use bevy::{ecs::system::SystemParam, prelude::*};
+use bevy::{
+    ecs::{entity::EntityHashMap, system::SystemParam},
+    prelude::*,
+};
 
 use super::{
-    bone::{Bones, RagdollBone},
+    bone::{BoneOf, Bones, RagdollBone},
     config::Ragdoll,
     intent::{BoneControl, part},
     plan::RagdollPlan,
@@ -117,6 +120,41 @@ fn climb(
         at = next;
     }
     Some(whole)
+}
+
+/// Two bones cannot show one joint: the later one is told, and shows none.
+pub(super) fn tell_shared(
+    mut commands: Commands,
+    new: Query<(), Added<BoneJoint>>,
+    all: Query<(Entity, Ref<BoneJoint>, Option<&Name>, Option<&BoneOf>)>,
+) {
+    if new.is_empty() {
+        return;
+    }
+    let name = |name: Option<&Name>| name.map_or(String::new(), |n| n.as_str().to_owned());
+    let mut shown: EntityHashMap<Entity> = EntityHashMap::default();
+    // Those that were there first, first.
+    for added in [false, true] {
+        for (bone, joint, own, of) in all.iter().filter(|(_, j, ..)| j.is_added() == added) {
+            let Some(first) = shown.insert(joint.joint, bone) else {
+                continue;
+            };
+            shown.insert(joint.joint, first);
+            let other = all.get(first).ok();
+            let (other_name, other_of) =
+                other.map_or((None, None), |(_, _, name, of)| (name, of.map(|of| of.0)));
+            tracing::warn!(
+                "{}: ragdoll: bone \"{}\": BoneJoint::joint is {}, which bone \"{}\" of {} shows \
+                 already; it shows none",
+                of.map_or(bone, |of| of.0),
+                name(own),
+                joint.joint,
+                name(other_name),
+                other_of.unwrap_or(first),
+            );
+            commands.entity(bone).try_remove::<BoneJoint>();
+        }
+    }
 }
 
 /// Fades what is shown of each bone in and out, tick by tick.

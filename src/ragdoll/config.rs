@@ -5,6 +5,7 @@ use bevy::prelude::*;
 use super::{
     blend::RagdollBlend, humanoid::HumanoidDetail, intent::RagdollIntent, plan::RagdollPlan,
     pose::RagdollPose, profile::RagdollProfile, rest::RagdollRest, state::RagdollState,
+    up::RagdollUp,
 };
 
 /// A ragdoll: add it to an entity, and it gets [`Bones`](super::Bones), bodies of their own at the top
@@ -23,7 +24,14 @@ use super::{
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serialize", reflect(Serialize, Deserialize))]
-#[require(RagdollIntent, RagdollState, RagdollPose, RagdollPlan, Transform)]
+#[require(
+    RagdollIntent,
+    RagdollState,
+    RagdollPose,
+    RagdollUp,
+    RagdollPlan,
+    Transform
+)]
 pub struct Ragdoll {
     /// The body plan.
     pub profile: RagdollProfile,
@@ -53,6 +61,33 @@ pub struct Ragdoll {
     /// How often the solver goes over the joints in each substep, at least 1. It is a setting of the
     /// whole physics world, where the largest that is asked for counts.
     pub iterations: u8,
+    /// With whom its bones collide.
+    pub groups: BoneGroups,
+}
+
+/// With whom the bones of a ragdoll collide: Rapier's collision groups, a bit for each of 32. Two things
+/// meet when each is in a group that the other meets.
+///
+/// By default bones are in all groups and meet all. A bone with groups of its own gets them as
+/// [`CollisionGroups`](bevy_rapier3d::prelude::CollisionGroups) on its entity; they stay until these are
+/// changed.
+#[derive(Reflect, Clone, Copy, Debug, PartialEq, Eq)]
+#[reflect(Default, Debug, PartialEq, Clone)]
+#[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
+pub struct BoneGroups {
+    /// The groups that they are in.
+    pub memberships: u32,
+    /// The groups that they meet.
+    pub filters: u32,
+}
+
+impl Default for BoneGroups {
+    fn default() -> Self {
+        Self {
+            memberships: u32::MAX,
+            filters: u32::MAX,
+        }
+    }
 }
 
 /// How a powered ragdoll is driven to its pose.
@@ -104,6 +139,7 @@ impl Default for Ragdoll {
             rest: RagdollRest::default(),
             keyframe_speed: 10.0,
             iterations: 4,
+            groups: BoneGroups::default(),
         }
     }
 }
@@ -116,6 +152,34 @@ impl Ragdoll {
             && self.damping == other.damping
             && self.iterations == other.iterations
             && self.profile == other.profile
+    }
+
+    /// Takes over all that builds no bones; nothing is allocated.
+    pub(super) fn take_settings(&mut self, other: &Self) {
+        // Every field is named, so that a new one is not forgotten.
+        let Self {
+            profile: _,
+            mass: _,
+            conditioning: _,
+            damping: _,
+            iterations: _,
+            drive,
+            max_speed,
+            max_spin,
+            fade,
+            blend,
+            rest,
+            keyframe_speed,
+            groups,
+        } = other;
+        self.drive = *drive;
+        self.max_speed = *max_speed;
+        self.max_spin = *max_spin;
+        self.fade = *fade;
+        self.blend = *blend;
+        self.rest = *rest;
+        self.keyframe_speed = *keyframe_speed;
+        self.groups = *groups;
     }
 
     /// A figure of this plan and mass.

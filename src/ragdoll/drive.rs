@@ -302,6 +302,10 @@ pub(super) fn drive(
                 );
             }
         }
+        let fade = match mode {
+            RagdollMode::GettingUp => rise::time(entity, plan, state.bypass_change_detection()),
+            _ => config.fade,
+        };
         let plan: &RagdollPlan = plan;
         if mode == RagdollMode::GettingUp {
             let state = state.bypass_change_detection();
@@ -336,10 +340,6 @@ pub(super) fn drive(
         if !awake && !follows {
             continue;
         }
-        let fade = match mode {
-            RagdollMode::GettingUp => state.rise_time,
-            _ => config.fade,
-        };
         ways.clear();
         for i in 0..count {
             let was = state.bones[i].body;

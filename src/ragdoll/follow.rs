@@ -1,15 +1,15 @@
 //! The figure goes where its root is thrown, so that what hangs on its entity (camera, skeleton, capsule)
 //! is there, and what is shown never has to slide back.
 
-use bevy::{math::ops, prelude::*};
+use bevy::prelude::*;
 
 use super::{
     intent::RagdollMode,
-    math::rotation::from_rotation_vector,
     plan::RagdollPlan,
     pose::BonePose,
     sever::is_cut,
     state::{BoneBody, RagdollState},
+    up::RagdollUp,
 };
 
 /// On a ragdoll: while it is limp, or powered without a pin, its entity is moved along after each tick: to
@@ -32,9 +32,20 @@ pub(crate) fn heading(root: Quat, bind: Quat, up: Vec3) -> Option<Vec3> {
     (ahead.length_squared() > 0.09).then(|| ahead.normalize())
 }
 
-/// The turn about Y of a figure that faces so.
-pub(crate) fn facing(ahead: Vec3) -> Quat {
-    from_rotation_vector(Vec3::Y * ops::atan2(-ahead.x, -ahead.z))
+/// The rotation of a figure that faces so; level, unit length.
+pub(crate) fn facing(ahead: Vec3, up: Vec3) -> Quat {
+    Quat::from_mat3(&Mat3::from_cols(ahead.cross(up), up, -ahead)).normalize()
+}
+
+/// The part of a direction across up, unit length.
+fn level(v: Vec3, up: Vec3) -> Vec3 {
+    let across = v.reject_from_normalized(up).try_normalize();
+    across.unwrap_or_else(|| up.any_orthonormal_vector())
+}
+
+/// A point at another height.
+pub(crate) fn at_height(p: Vec3, up: Vec3, height: f32) -> Vec3 {
+    p + up * (height - p.dot(up))
 }
 
 /// The lowest point along up of all bones that are not cut off.
@@ -54,12 +65,12 @@ pub(crate) fn lowest(plan: &RagdollPlan, state: &RagdollState, up: Vec3) -> f32 
 /// Moves figures to their roots.
 pub(super) fn follow(
     mut ragdolls: Query<
-        (&mut Transform, &RagdollPlan, &mut RagdollState),
+        (&mut Transform, &RagdollUp, &RagdollPlan, &mut RagdollState),
         (With<FollowRoot>, Without<ChildOf>),
     >,
 ) {
-    let up = Vec3::Y;
-    for (mut transform, plan, mut state) in &mut ragdolls {
+    for (mut transform, up, plan, mut state) in &mut ragdolls {
+        let up = up.direction();
         let (Some(planned), Some(root)) = (plan.bones.first(), state.bones.first()) else {
             continue;
         };
@@ -73,15 +84,11 @@ pub(super) fn follow(
         }
         let place = root.place;
         let ahead = heading(place.rotation, planned.bind.rotation, up)
-            .unwrap_or(transform.rotation * Vec3::NEG_Z);
-        let rotation = facing(ahead);
+            .unwrap_or_else(|| level(transform.rotation * Vec3::NEG_Z, up));
+        let rotation = facing(ahead, up);
         let low = lowest(plan, &state, up);
-        let offset = rotation * planned.bind.position;
-        let translation = Vec3::new(
-            place.position.x - offset.x,
-            low,
-            place.position.z - offset.z,
-        );
+        let below = place.position - rotation * planned.bind.position;
+        let translation = at_height(below, up, low);
         if translation.is_finite() && rotation.is_finite() {
             state.bypass_change_detection().figure = BonePose {
                 position: translation,
@@ -117,5 +124,18 @@ mod tests {
             let side = turn * Quat::from_rotation_z(FRAC_PI_2);
             assert_eq!(heading(side, Quat::IDENTITY, Vec3::Y), None);
         }
+    }
+
+    #[test]
+    fn a_figure_stands_along_up_and_faces_ahead_whatever_up_is() {
+        for up in [Vec3::Y, Vec3::X, Vec3::NEG_Y, Vec3::new(0.6, -0.48, 0.64)] {
+            let ahead = level(Vec3::new(0.3, 0.5, -0.9), up);
+            let turn = facing(ahead, up);
+            assert!((turn * Vec3::Y).distance(up) < 1.0e-5, "{up}");
+            assert!((turn * Vec3::NEG_Z).distance(ahead) < 1.0e-5, "{up}");
+            let raised = at_height(Vec3::new(1.0, 2.0, 3.0), up, 7.0);
+            assert!((raised.dot(up) - 7.0).abs() < 1.0e-5, "{up}");
+        }
+        assert_eq!(facing(Vec3::NEG_Z, Vec3::Y), Quat::IDENTITY);
     }
 }

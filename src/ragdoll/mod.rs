@@ -46,6 +46,7 @@ mod skin;
 mod state;
 mod teleport;
 mod tick;
+mod up;
 mod validate;
 mod weight;
 
@@ -68,7 +69,7 @@ pub use bake::BakeRagdoll;
 pub use balance::{BalanceState, Pendulum, RagdollBalance};
 pub use blend::{BoneJoint, RagdollBlend};
 pub use bone::{BoneOf, BoneOutput, Bones, RagdollBone};
-pub use config::{Ragdoll, RagdollDrive};
+pub use config::{BoneGroups, Ragdoll, RagdollDrive};
 pub use follow::FollowRoot;
 pub use hit::{HitCommands, HitReaction, RagdollHit};
 pub use humanoid::{BodyPart, HumanoidDetail, HumanoidRig};
@@ -89,6 +90,7 @@ pub use rise::{GetUp, GetUpClip, GetsUp, Lying};
 pub use sever::{Dismember, JointBroke, Reattach};
 pub use skin::{RagdollFromSkin, RagdollReady, SkinReport, fit_box, fit_capsule};
 pub use state::{BoneBody, BoneState, PendingHit, RagdollState};
+pub use up::RagdollUp;
 #[cfg(feature = "character")]
 pub(crate) use {rise::find_place, sever::is_cut};
 
@@ -120,6 +122,7 @@ impl Plugin for RagdollPlugin {
             .register_type::<BoneOutput>()
             .register_type::<BoneJoint>()
             .register_type::<FollowRoot>()
+            .register_type::<RagdollUp>()
             .register_type::<HitReaction>()
             .register_type::<RagdollHit>()
             .register_type::<CameToRest>()
@@ -172,8 +175,10 @@ impl Plugin for RagdollPlugin {
             (
                 (
                     prepare::build,
+                    blend::tell_shared,
                     prepare::pace,
                     hit::feel,
+                    up::check,
                     rise::begin,
                     prepare::switch,
                 )

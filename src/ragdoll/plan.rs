@@ -29,6 +29,10 @@ pub(crate) struct RagdollPlan {
     pub refused: Option<String>,
     /// Which bones are gone though nobody asked for that.
     pub lost: Vec<bool>,
+    /// Whether a bad [`RagdollUp`](super::RagdollUp) was told.
+    pub told_up: bool,
+    /// Whether a bad [`RagdollState::rise_time`](super::RagdollState::rise_time) was told.
+    pub told_rise: bool,
     /// Whether any joint can part.
     pub breakable: bool,
     /// Substeps beyond those of the physics world.
@@ -162,6 +166,8 @@ impl RagdollPlan {
             bones,
             apart,
             told: false,
+            told_up: false,
+            told_rise: false,
             extra_substeps: 0,
             mass: config.mass,
             inertia: (figure.x_axis.x + figure.y_axis.y + figure.z_axis.z) / 3.0,

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use bevy_rapier3d::prelude::{
     AdditionalMassProperties, AdditionalSolverIterations, Collider, ColliderMassProperties,
-    Damping, MassProperties, RigidBody, RigidBodyDisabled,
+    CollisionGroups, Damping, Group, MassProperties, RigidBody, RigidBodyDisabled,
 };
 
 use super::{
@@ -15,7 +15,7 @@ use super::{
     pose::RagdollPose,
     profile::BoneShape,
     rest, sever,
-    skin::SkeletonJoints,
+    skin::{RagdollReady, SkeletonJoints},
     state::{BoneBody, BoneState, RagdollState},
     validate,
 };
@@ -73,21 +73,33 @@ pub(super) fn build(
             &mut RagdollPlan,
             &mut RagdollState,
             Option<&Bones>,
-            Option<&SkeletonJoints>,
+            Option<&mut SkeletonJoints>,
         ),
         Changed<Ragdoll>,
     >,
 ) {
-    for (entity, config, pose, own, mut plan, mut state, bones, joints) in &mut ragdolls {
+    for (entity, config, pose, own, mut plan, mut state, bones, mut joints) in &mut ragdolls {
         // Who writes the component every tick has not changed it for that.
         if plan.made_of.as_deref() == Some(&*config) {
             continue;
         }
-        let refused = validate::refuse(&config);
-        if let (None, Some(made_of)) = (&refused, plan.made_of.as_deref_mut())
-            && config.has_bones_of(made_of)
+        // A plan that bones were made of is sound: who tunes settings every tick pays for those alone.
+        let tuned = (plan.made_of.as_deref()).is_some_and(|made_of| config.has_bones_of(made_of));
+        let refused = if tuned {
+            validate::refuse_settings(&config)
+        } else {
+            validate::refuse(&config)
+        };
+        if tuned
+            && refused.is_none()
+            && let Some(made_of) = plan.made_of.as_deref_mut()
         {
-            made_of.clone_from(&config);
+            if made_of.groups != config.groups {
+                for bone in bones.iter().flat_map(|b| b.iter()) {
+                    commands.entity(bone).try_insert(groups(&config));
+                }
+            }
+            made_of.take_settings(&config);
             continue;
         }
         for bone in bones.iter().flat_map(|b| b.iter()) {
@@ -134,7 +146,7 @@ pub(super) fn build(
                 _ => asked.unwrap_or(&bone.bind).seen_from(&figure),
             };
             let name = &config.profile.bones[bone.index].name;
-            let joint = joints.and_then(|j| j.0.iter().find(|(of, ..)| of == name));
+            let joint = (joints.as_ref()).and_then(|j| j.joints.iter().find(|(of, ..)| of == name));
             let mut made = commands.spawn((
                 Name::new(name.clone()),
                 RagdollBone {
@@ -143,6 +155,7 @@ pub(super) fn build(
                 },
                 BoneOf(entity),
                 body(bone, config.damping),
+                groups(&config),
                 AdditionalSolverIterations(plan.extra_substeps),
                 Transform::from_translation(place.position).with_rotation(place.rotation),
             ));
@@ -153,7 +166,23 @@ pub(super) fn build(
                 });
             }
         }
+        // Behind the bones, which are there when it is heard.
+        if let Some(joints) = &mut joints
+            && !joints.told
+        {
+            joints.told = true;
+            commands.trigger(RagdollReady { entity });
+        }
     }
+}
+
+/// With whom bones collide.
+fn groups(config: &Ragdoll) -> CollisionGroups {
+    let of = config.groups;
+    CollisionGroups::new(
+        Group::from_bits_retain(of.memberships),
+        Group::from_bits_retain(of.filters),
+    )
 }
 
 /// The body of a bone, not yet there for the physics.

@@ -11,7 +11,7 @@ use bevy::{math::ops, prelude::*};
 use super::{
     bone::{BoneOf, Bones},
     config::Ragdoll,
-    follow::{facing, heading, lowest},
+    follow::{at_height, facing, heading, lowest},
     intent::{RagdollIntent, RagdollMode},
     math::rotation::{angle, from_rotation_vector},
     plan::RagdollPlan,
@@ -20,6 +20,7 @@ use super::{
     sever::is_cut,
     state::{BoneBody, RagdollState},
     tick::Slot,
+    up::RagdollUp,
 };
 use crate::backend::{handles::RapierContextEntityLink, world::PhysicsWorlds};
 
@@ -86,9 +87,10 @@ pub enum Lying {
 }
 
 impl Lying {
-    /// How a figure lies whose root is turned so, and has this rotation in the bind pose.
-    pub fn of(root: Quat, bind: Quat) -> Self {
-        let up = (root * bind.inverse()).inverse() * Vec3::Y;
+    /// How a figure lies whose root is turned so, and has this rotation in the bind pose; `up` is of unit
+    /// length, world.
+    pub fn of(root: Quat, bind: Quat, up: Vec3) -> Self {
+        let up = (root * bind.inverse()).inverse() * up;
         let most = up.abs().max_element();
         if up.z.abs() >= most {
             if up.z > 0.0 { Self::Front } else { Self::Back }
@@ -109,9 +111,9 @@ impl Lying {
 /// A clip laid over a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Laid {
-    /// Turn about up.
+    /// Upright, turned about up.
     pub rotation: Quat,
-    /// Of the clip's origin, level; the height is the floor's business.
+    /// Of the clip's origin; the height is the floor's business.
     pub origin: Vec3,
     /// Mean square angle of the bones, square radians.
     pub cost: f32,
@@ -124,7 +126,10 @@ pub(crate) fn lay(
     place: impl Fn(usize) -> BonePose,
     cut: impl Fn(usize) -> bool,
     pose: &RagdollPose,
+    up: Vec3,
 ) -> Laid {
+    let upright = Quat::from_rotation_arc(Vec3::Y, up);
+    let back = upright.inverse();
     let asked = |i: usize| {
         let bone = &plan.bones[i];
         *pose.bones.get(bone.index).unwrap_or(&bone.bind)
@@ -141,11 +146,11 @@ pub(crate) fn lay(
     let (mut cos, mut sin) = (0.0, 0.0);
     for (i, bone) in whole() {
         let a = center(i, &asked(i)) - of_pose;
-        let b = center(i, &place(i)) - of_figure;
+        let b = back * (center(i, &place(i)) - of_figure);
         cos += bone.mass * (a.x * b.x + a.z * b.z);
         sin += bone.mass * (a.z * b.x - a.x * b.z);
     }
-    let rotation = from_rotation_vector(Vec3::Y * ops::atan2(sin, cos));
+    let rotation = upright * from_rotation_vector(Vec3::Y * ops::atan2(sin, cos));
     let mut cost = 0.0;
     for (i, bone) in whole() {
         let off = angle((rotation * asked(i).rotation).inverse() * place(i).rotation);
@@ -173,6 +178,7 @@ pub(crate) fn find_place(
     clips: Option<&GetUp>,
     worlds: &PhysicsWorlds,
     link: &RapierContextEntityLink,
+    up: Vec3,
     skip: impl Fn(Entity) -> bool,
 ) -> Option<RisePlace> {
     if plan.bones.is_empty() || plan.bones.len() != state.bones.len() {
@@ -181,31 +187,35 @@ pub(crate) fn find_place(
     let place = |i: usize| state.bones[i].place;
     let clips = clips.map_or(&[][..], |c| &c.clips[..]);
     let cut = |i: usize| is_cut(plan, state, i);
-    let laid = clips.iter().map(|clip| lay(plan, place, cut, &clip.start));
+    let laid = clips
+        .iter()
+        .map(|clip| lay(plan, place, cut, &clip.start, up));
     let best = (laid.enumerate()).min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
     let root = place(0).position;
     let (clip, rotation, origin) = match best {
         Some((clip, laid)) => (Some(clip), laid.rotation, laid.origin),
         None => {
             let bind = &plan.bones[0].bind;
-            let ahead = heading(place(0).rotation, bind.rotation, Vec3::Y);
-            let rotation = ahead.map_or(Quat::IDENTITY, facing);
+            let ahead = heading(place(0).rotation, bind.rotation, up);
+            let upright = Quat::from_rotation_arc(Vec3::Y, up);
+            let rotation = ahead.map_or(upright, |ahead| facing(ahead, up));
             (None, rotation, root - rotation * bind.position)
         }
     };
     let view = worlds.of(link)?;
-    let low = lowest(plan, state, Vec3::Y);
+    let low = lowest(plan, state, up);
     let floor = |at: Vec3| {
-        let from = Vec3::new(at.x, root.y + ABOVE, at.z);
-        let found = view.floor_below(from, Vec3::NEG_Y, REACH, &skip);
-        found.filter(|(_, normal)| normal.y > STEEP)
+        let from = at_height(at, up, root.dot(up) + ABOVE);
+        let found = view.floor_below(from, -up, REACH, &skip);
+        let found = found.filter(|(_, normal)| normal.dot(up) > STEEP);
+        found.map(|(point, _)| point.dot(up))
     };
     // Behind a wall or beyond an edge there is no place for the feet: then it is below the root.
     let (position, height) = match floor(origin) {
-        Some((point, _)) if (point.y - low).abs() < ABOVE + 0.5 => (origin, point.y),
-        _ => (root, floor(root).map_or(low, |(point, _)| point.y)),
+        Some(height) if (height - low).abs() < ABOVE + 0.5 => (origin, height),
+        _ => (root, floor(root).unwrap_or(low)),
     };
-    let position = Vec3::new(position.x, height, position.z);
+    let position = at_height(position, up, height);
     position.is_finite().then_some(RisePlace {
         clip,
         position,
@@ -225,6 +235,7 @@ pub(super) fn begin(
             &RagdollPlan,
             &mut RagdollState,
             &mut Transform,
+            &RagdollUp,
             &GetUp,
             &Bones,
         ),
@@ -232,7 +243,7 @@ pub(super) fn begin(
     >,
     bones: Query<(&BoneOf, &RapierContextEntityLink)>,
 ) {
-    for (entity, config, intent, plan, mut state, mut transform, clips, tied) in &mut ragdolls {
+    for (entity, config, intent, plan, mut state, mut transform, up, clips, tied) in &mut ragdolls {
         let begins = rest::mode(intent, &state, config) == RagdollMode::GettingUp
             && state.mode != RagdollMode::GettingUp;
         let simulated =
@@ -246,7 +257,8 @@ pub(super) fn begin(
         // The same as where a character looks for room: of other figures, bones are in the way.
         let own =
             |other: Entity| other == entity || bones.get(other).is_ok_and(|(of, _)| of.0 == entity);
-        let Some(place) = find_place(plan, &state, Some(clips), &worlds, link, own) else {
+        let up = up.direction();
+        let Some(place) = find_place(plan, &state, Some(clips), &worlds, link, up, own) else {
             continue;
         };
         let Some(clip) = place.clip else { continue };
@@ -262,6 +274,24 @@ pub(super) fn begin(
         state.rise = Some(clip);
         commands.trigger(GetsUp { entity, clip });
     }
+}
+
+/// How long it takes to rise, seconds; what is no time is mended, and told once.
+pub(super) fn time(entity: Entity, plan: &mut RagdollPlan, state: &mut RagdollState) -> f32 {
+    let asked = state.rise_time;
+    let bad = !(asked >= 0.0 && asked.is_finite());
+    if bad {
+        state.rise_time = RagdollState::default().rise_time;
+        if !plan.told_rise {
+            tracing::warn!(
+                "{entity}: ragdoll: RagdollState::rise_time is {asked}, but needs a finite number of at \
+                 least 0; it is {}",
+                state.rise_time
+            );
+        }
+    }
+    plan.told_rise |= bad;
+    state.rise_time
 }
 
 /// Holds the beginning of the clip until the animation plays it, then goes over to the animation.
@@ -332,14 +362,19 @@ mod tests {
                 ("thigh_r", Quat::from_rotation_x(0.7)),
             ],
         );
-        for yaw in [-3.0f32, -1.2, 0.0, 0.4, 2.2] {
+        let ups = [Vec3::Y, Vec3::X, Vec3::NEG_Y, Vec3::new(0.6, -0.48, 0.64)];
+        let turns = ups
+            .iter()
+            .flat_map(|up| [-3.0f32, -1.2, 0.0, 0.4, 2.2].map(|yaw| (*up, yaw)));
+        for (up, yaw) in turns {
+            let upright = Quat::from_rotation_arc(Vec3::Y, up);
             let at = Transform::from_xyz(3.0, 1.0, -7.0)
-                .with_rotation(from_rotation_vector(Vec3::Y * yaw));
+                .with_rotation(from_rotation_vector(up * yaw) * upright);
             let figure = places(&plan, &lying, &at);
-            let laid = lay(&plan, |i| figure[i], |_| false, &lying);
+            let laid = lay(&plan, |i| figure[i], |_| false, &lying, up);
             assert!(
                 angle(laid.rotation.inverse() * at.rotation) < 1.0e-3,
-                "{yaw}"
+                "{up} {yaw}"
             );
             assert!(laid.origin.distance(at.translation) < 1.0e-3, "{yaw}");
             assert!(laid.cost < 1.0e-5, "{yaw}: {}", laid.cost);
@@ -371,7 +406,8 @@ mod tests {
                 let lean = Quat::from_rotation_x(0.2);
                 let figure = places(&plan, &lies(way * lean, 0.6), &at);
                 let best = ways.into_iter().enumerate().min_by(|(_, a), (_, b)| {
-                    let cost = |w: Quat| lay(&plan, |i| figure[i], |_| false, &lies(w, 0.0)).cost;
+                    let cost =
+                        |w: Quat| lay(&plan, |i| figure[i], |_| false, &lies(w, 0.0), Vec3::Y).cost;
                     cost(*a).total_cmp(&cost(*b))
                 });
                 assert_eq!(best.map(|b| b.0), Some(n), "yaw {yaw}");
@@ -394,7 +430,10 @@ mod tests {
             for yaw in [0.0f32, 2.0] {
                 let bind = Quat::from_rotation_y(0.4);
                 let root = Quat::from_rotation_y(yaw) * turn * bind;
-                assert_eq!(Lying::of(root, bind), expected);
+                assert_eq!(Lying::of(root, bind, Vec3::Y), expected);
+                // The same where up is elsewhere.
+                let world = Quat::from_rotation_z(1.1);
+                assert_eq!(Lying::of(world * root, bind, world * Vec3::Y), expected);
             }
         }
     }

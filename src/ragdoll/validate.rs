@@ -17,6 +17,11 @@ const NARROW: f32 = 0.087;
 
 /// What is wrong, in words.
 pub(super) fn refuse(config: &Ragdoll) -> Option<String> {
+    refuse_settings(config).or_else(|| refuse_profile(&config.profile))
+}
+
+/// What is wrong beside the body plan, in words.
+pub(super) fn refuse_settings(config: &Ragdoll) -> Option<String> {
     let field = |ok: bool, name: &str, value: f32, need: &str| {
         (!ok).then(|| format!("Ragdoll::{name} is {value}, but needs {need}"))
     };
@@ -52,7 +57,6 @@ pub(super) fn refuse(config: &Ragdoll) -> Option<String> {
             field(v >= 0.0, "drive.torque", v, "a number of at least 0")
         })
         .or_else(|| positive("drive.pin_frequency", config.drive.pin_frequency))
-        .or_else(|| refuse_profile(&config.profile))
 }
 
 /// What is wrong with a body plan, in words that name the bone.

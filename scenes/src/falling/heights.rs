@@ -4,7 +4,7 @@ use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 
 use super::{
-    FallStation, FallStep, during, last, most,
+    FallStation, FallStep, during, greatest, last, least, most,
     stage::{BRICK, Block, CONCRETE},
 };
 use crate::stations::Verdict;
@@ -52,12 +52,12 @@ fn stairs() -> FallStation {
         "the push is what it gets: 200 N·s ahead within 10 %",
         |trace| {
             let first = during(trace, 1, 0).take(3);
-            let got = first.map(|(_, f)| -f.momentum.z).fold(0.0, f32::max);
+            let got = greatest(first.map(|(_, f)| -f.momentum.z));
             Verdict::close(got.into(), 200.0, 0.1, format!("{got:.0} N·s"))
         },
     )
     .ask("it tumbles down at least half of the steps", |trace| {
-        let low = last(trace).map(|f| f.root.y).fold(f32::MAX, f32::min);
+        let low = least(last(trace).map(|f| f.root.y));
         let down = (f32::from(STEPS) * STEP.y - low) / STEP.y;
         Verdict::new(down >= 0.5 * f32::from(STEPS), format!("{down:.1} steps"))
     })
@@ -133,7 +133,7 @@ fn cliff() -> FallStation {
             },
         )
         .ask("lands beyond the edge, where its speed takes it", |trace| {
-            let far = last(trace).map(|f| -f.root.z).fold(f32::MAX, f32::min);
+            let far = least(last(trace).map(|f| -f.root.z));
             let time = ops::sqrt(2.0 * HEIGHT / GRAVITY);
             Verdict::new(
                 far > 0.5 * SPRINT * time && far < SPRINT * time + 5.0,
@@ -175,7 +175,7 @@ fn crowd() -> FallStation {
         })
         .steps([FallStep::wait("all let go at once", 9.0)])
         .ask("everyone lies in the end", |trace| {
-            let high = last(trace).map(|f| f.head.y).fold(f32::MIN, f32::max);
+            let high = greatest(last(trace).map(|f| f.head.y));
             Verdict::at_most(high.into(), 1.1, format!("highest head at {high:.2} m"))
         })
         .ask("everyone is frozen within 8 s", |trace| {

@@ -123,7 +123,7 @@ impl FallStation {
     /// Asks that in the end everyone lies still, joints closed.
     fn ask_at_rest(self) -> Self {
         self.ask("in the end joints are closed within 2 mm", |trace| {
-            let gap = last(trace).map(|f| f.gap[0]).fold(0.0, f32::max);
+            let gap = greatest(last(trace).map(|f| f.gap[0]));
             Verdict::at_most(gap.into(), 2e-3, format!("{:.2} mm", 1e3 * gap))
         })
         .ask("in the end everyone is asleep", |trace| {
@@ -162,6 +162,21 @@ fn most(trace: &FallTrace, of: impl Fn(&Fallen) -> f32) -> (f64, String) {
     (most.into(), when)
 }
 
+/// The larger; what is no number stays.
+fn larger(a: f32, b: f32) -> f32 {
+    if a.is_nan() || b <= a { a } else { b }
+}
+
+/// The greatest of all; no number when there are none, or one of them is none.
+fn greatest(all: impl IntoIterator<Item = f32>) -> f32 {
+    all.into_iter().reduce(larger).unwrap_or(f32::NAN)
+}
+
+/// The least of all, likewise.
+fn least(all: impl IntoIterator<Item = f32>) -> f32 {
+    -greatest(all.into_iter().map(|value| -value))
+}
+
 /// Everyone in the end.
 fn last(trace: &FallTrace) -> impl Iterator<Item = &Fallen> {
     trace.last().into_iter().flat_map(|s| &s.figures)
@@ -193,6 +208,18 @@ pub fn spawn_yard(world: &mut World, stations: &[FallStation]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_no_number_is_the_greatest_and_the_least() {
+        assert_eq!(greatest([1.0, 3.0, 2.0]), 3.0);
+        assert_eq!(least([1.0, -3.0, 2.0]), -3.0);
+        for at in 0..3 {
+            let mut all = [1.0, 2.0, 3.0];
+            all[at] = f32::NAN;
+            assert!(greatest(all).is_nan() && least(all).is_nan(), "{at}");
+        }
+        assert!(greatest([]).is_nan() && least([]).is_nan());
+    }
 
     #[test]
     fn everything_stands_on_the_yard_and_no_station_in_another() {

@@ -51,6 +51,10 @@ impl Block {
 
     /// How deep a ball is in it, metres; negative outside.
     pub fn depth(&self, center: Vec3, radius: f32) -> f32 {
+        // The largest of what is no number and something else is the latter.
+        if !center.is_finite() {
+            return f32::NAN;
+        }
         let local = self.at.rotation.inverse() * (center - self.at.translation);
         let out = local.abs() - 0.5 * self.size;
         let outside = out.max(Vec3::ZERO).length();

@@ -4,7 +4,7 @@ use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 
 use super::{
-    FallStation, FallStep, FallTrace, Fallen, Scene, during, most,
+    FallStation, FallStep, FallTrace, Fallen, Scene, during, greatest, most,
     stage::{Block, CONCRETE, WOOD},
     upright::falls,
 };
@@ -73,13 +73,9 @@ fn storm() -> FallStation {
     .ask(
         "crates knock it about: a joint is off by 5 degrees more than without",
         |trace| {
-            let peak = |step| {
-                during(trace, step, 0)
-                    .map(|(_, f)| f.error[0])
-                    .fold(0.0, f32::max)
-            };
+            let peak = |step| greatest(during(trace, step, 0).map(|(_, f)| f.error[0]));
             let calm = during(trace, 0, 0).filter(|(t, _)| *t > 1.0);
-            let calm = calm.map(|(_, f)| f.error[0]).fold(0.0, f32::max);
+            let calm = greatest(calm.map(|(_, f)| f.error[0]));
             let got: f32 = peak(1);
             Verdict::new(
                 got > calm + 5f32.to_radians(),
@@ -188,10 +184,7 @@ fn road() -> FallStation {
             return Verdict::never("was hit");
         };
         let after = &trace.samples[n..(n + 16).min(trace.samples.len())];
-        let thrown = after
-            .iter()
-            .map(|s| s.figures[0].velocity().x)
-            .fold(0.0, f32::max);
+        let thrown = greatest(after.iter().map(|s| s.figures[0].velocity().x));
         Verdict::new(
             (0.3 * SPEED..1.6 * SPEED).contains(&thrown),
             format!("{thrown:.1} m/s"),

@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 
-use super::{script::Crew, stage::Block};
+use super::{larger, script::Crew, stage::Block};
 use crate::{
     course::layout::Place,
     stations::{OfStep, Trace},
@@ -134,10 +134,10 @@ fn fallen(world: &World, figure: Entity, place: &Place, ground: &[Block]) -> Opt
         }
         // A skeleton has more joints in its spine than a figure has bodies: what follows it may part.
         let gap = if output.simulated { output.gap } else { 0.0 };
-        seen.gap = [seen.gap[0].max(gap), seen.gap[1] + gap];
-        seen.fastest = seen.fastest.max(output.velocity.length());
+        seen.gap = [larger(seen.gap[0], gap), seen.gap[1] + gap];
+        seen.fastest = larger(seen.fastest, output.velocity.length());
         seen.error = [
-            seen.error[0].max(output.error),
+            larger(seen.error[0], output.error),
             seen.error[1] + output.error,
         ];
         seen.simulated[0] += usize::from(output.simulated);
@@ -147,7 +147,7 @@ fn fallen(world: &World, figure: Entity, place: &Place, ground: &[Block]) -> Opt
         for (point, radius) in touches {
             let point = pose.transform_point(point);
             for block in ground {
-                seen.sunk = seen.sunk.max(block.depth(point, radius));
+                seen.sunk = larger(seen.sunk, block.depth(point, radius));
             }
         }
         count += 1.0;

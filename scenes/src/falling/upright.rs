@@ -4,7 +4,7 @@ use bevy::{math::ops, prelude::*};
 use bevy_embody::prelude::*;
 
 use super::{
-    FallStation, FallStep, FallTrace, Fallen, during, last,
+    FallStation, FallStep, FallTrace, Fallen, during, greatest, larger, last, least,
     stage::{BRICK, Block},
 };
 use crate::stations::Verdict;
@@ -90,24 +90,21 @@ fn range() -> FallStation {
     })
     .ask("150 N·s is what the chest gets, within 10 %", |trace| {
         let first = during(trace, 2, 1).take(3);
-        let got = first.map(|(_, f)| -f.momentum.z).fold(0.0, f32::max);
+        let got = greatest(first.map(|(_, f)| -f.momentum.z));
         Verdict::close(got.into(), 150.0, 0.1, format!("{got:.0} N·s"))
     })
     .ask("the others are not moved by it", |trace| {
         let still = |figure| {
             let places = during(trace, 2, figure).chain(during(trace, 3, figure));
             let places: Vec<Vec3> = places.map(|(_, f)| f.foot).collect();
-            places
-                .iter()
-                .map(|p| p.distance(places[0]))
-                .fold(0.0, f32::max)
+            greatest(places.iter().map(|p| p.distance(places[0])))
         };
-        let moved = still(0).max(still(2));
+        let moved = larger(still(0), still(2));
         Verdict::at_most(moved.into(), 0.005, format!("{:.1} mm", 1e3 * moved))
     })
     .ask("it lies", |trace| {
         let lows = during(trace, 3, 1).map(|(_, f)| f.head.y);
-        let low = lows.fold(f32::MAX, f32::min);
+        let low = least(lows);
         Verdict::at_most(low.into(), 0.5, format!("head at {low:.2} m"))
     })
     .ask("and stands again", |trace| stands(trace, 1))
@@ -176,9 +173,9 @@ fn uneven() -> FallStation {
         let slabs: Vec<Block> = uneven_blocks();
         let off = |f: &Fallen| {
             let depth = |b: &Block| b.depth(f.foot, 0.0);
-            slabs.iter().map(depth).fold(f32::MIN, f32::max).abs()
+            greatest(slabs.iter().map(depth)).abs()
         };
-        let worst = last(trace).map(off).fold(0.0, f32::max);
+        let worst = greatest(last(trace).map(off));
         Verdict::at_most(worst.into(), 0.25, format!("{:.0} mm off", 1e3 * worst))
     })
     .ask_whole(0.06, 0.06)

@@ -1,5 +1,6 @@
 //! Runs a small example without a window: holds its keys down for some seconds and tells where the
-//! characters and vehicles went, and how ragdolls fell.
+//! characters and vehicles went, and how ragdolls fell. Who falls must lie, be hit, and get up: otherwise
+//! the run fails.
 
 use core::time::Duration;
 
@@ -12,7 +13,10 @@ use bevy::{
 };
 use bevy_embody::{prelude::*, ragdoll::SkinReport};
 
-use super::{has_display, window_plugins};
+use super::{
+    falls::{self, Falls},
+    has_display, window_plugins,
+};
 use crate::figures::FigureAssetsPlugins;
 
 /// Length of a run without a window, ticks.
@@ -49,12 +53,15 @@ struct ScriptedRun;
 impl Plugin for ScriptedRun {
     fn build(&self, app: &mut App) {
         app.init_resource::<Loaded>()
+            .init_resource::<Falls>()
             .insert_resource(TimeUpdateStrategy::FixedTimesteps(1))
             .add_systems(PreUpdate, hold_keys.after(InputSystems))
             .add_systems(FixedFirst, wait)
             .add_systems(
                 FixedLast,
-                (report, report_falls).run_if(|loaded: Res<Loaded>| loaded.0.is_some()),
+                (falls::report, report)
+                    .chain()
+                    .run_if(|loaded: Res<Loaded>| loaded.0.is_some()),
             );
     }
 }
@@ -105,6 +112,7 @@ fn report(
     characters: Query<(Entity, &Transform, &CharacterState), With<Character>>,
     vehicles: Query<(Entity, &Transform, &VehicleTelemetry)>,
     ragdolls: Query<(), With<Ragdoll>>,
+    falls: Res<Falls>,
     time: Res<Time<Fixed>>,
     mut exit: MessageWriter<AppExit>,
 ) {
@@ -161,34 +169,10 @@ fn report(
             telemetry.grounded,
         );
     }
-    exit.write(AppExit::Success);
-}
-
-#[expect(
-    clippy::print_stdout,
-    reason = "the report is what a headless run is for"
-)]
-fn report_falls(
-    mut ticks: Local<u32>,
-    mut told: Local<Option<RagdollMode>>,
-    ragdolls: Query<(&RagdollState, &Bones), With<Ragdoll>>,
-    outputs: Query<&BoneOutput>,
-) {
-    *ticks += 1;
-    for (state, bones) in &ragdolls {
-        if *told == Some(state.mode) && *ticks != FALL_TICKS {
-            continue;
-        }
-        *told = Some(state.mode);
-        let heights = state.bones.iter().map(|bone| bone.place.position.y);
-        let (low, high) = heights.fold((f32::MAX, f32::MIN), |(a, b), y| (a.min(y), b.max(y)));
-        let fastest = outputs.iter_many(bones.iter());
-        let fastest = fastest.map(|o| o.velocity.length()).fold(0.0, f32::max);
-        println!(
-            "after {:.1} s it is {:?}: {} joints from {low:.2} m to {high:.2} m above the ground, none faster than {fastest:.2} m/s",
-            *ticks as f32 / 64.0,
-            state.mode,
-            state.bones.len(),
-        );
-    }
+    let done = ragdolls.is_empty() || falls.tell();
+    exit.write(if done {
+        AppExit::Success
+    } else {
+        AppExit::error()
+    });
 }

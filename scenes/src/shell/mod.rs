@@ -7,6 +7,7 @@ pub mod camera;
 mod clock;
 mod course_view;
 mod demo;
+mod falls;
 pub mod figure;
 mod garage;
 pub mod input;

@@ -20,6 +20,8 @@ pub(crate) struct OwnBones {
     parted: bool,
     /// Whether the capsule is disabled because it lies, not because the game wants it so.
     pub(super) disabled: bool,
+    /// The settings that were told to be bad, as bits: who writes them every tick is not told every tick.
+    pub(super) told: [Option<u32>; 2],
 }
 
 impl OwnBones {

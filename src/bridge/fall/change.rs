@@ -11,7 +11,8 @@ use crate::{
     backend::{handles::RapierContextEntityLink, world::PhysicsWorlds},
     character::{Character, CharacterIgnores, CharacterState},
     ragdoll::{
-        BoneOf, GetUp, RagdollIntent, RagdollMode, RagdollPlan, RagdollState, find_place, is_cut,
+        BoneOf, GetUp, RagdollIntent, RagdollMode, RagdollPlan, RagdollState, RagdollUp,
+        find_place, is_cut,
     },
 };
 
@@ -66,6 +67,7 @@ type Fallen<'a> = (
         &'a mut RagdollIntent,
         &'a mut RagdollState,
         &'a RagdollPlan,
+        &'a mut RagdollUp,
         Option<&'a GetUp>,
     ),
     &'a mut Transform,
@@ -91,7 +93,9 @@ pub(super) fn change(
         (off, mut own_bones),
     ) in &mut characters
     {
-        let (mut intent, mut figure, plan, clips) = ragdoll;
+        let (mut intent, mut figure, plan, mut known_up, clips) = ragdoll;
+        let up = moves.up;
+        known_up.set_if_neq(RagdollUp(up));
         if plan.bones.is_empty() {
             continue;
         }
@@ -138,12 +142,12 @@ pub(super) fn change(
                 let own = |other: Entity| {
                     other == entity || bones.get(other).is_ok_and(|of| of.0 == entity)
                 };
-                let place = find_place(plan, &figure, clips, &worlds, link, own);
+                let place = find_place(plan, &figure, clips, &worlds, link, up, own);
                 let radius = character.shape.radius();
                 let free = place.filter(|place| {
-                    let foot = place.position + Vec3::Y * (CLEARANCE + radius);
+                    let foot = place.position + up * (CLEARANCE + radius);
                     let top = place.position
-                        + Vec3::Y * (character.shape.height() - radius).max(CLEARANCE + radius);
+                        + up * (character.shape.height() - radius).max(CLEARANCE + radius);
                     let room = |view: crate::backend::world::PhysicsView| {
                         view.has_room(foot, top, radius * 0.9, own)
                     };
@@ -165,7 +169,8 @@ pub(super) fn change(
                     }
                 }
                 *moves = CharacterState {
-                    velocity: (momentum / mass).with_y(0.0),
+                    velocity: (momentum / mass).reject_from_normalized(up),
+                    up,
                     ..default()
                 };
                 intent.mode = RagdollMode::GettingUp;

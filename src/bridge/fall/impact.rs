@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::{BodyPhase, CharacterRagdoll, CharacterRagdollState};
+use super::{BodyPhase, CharacterRagdoll, CharacterRagdollState, OwnBones};
 use crate::{
     backend::{handles::RapierContextEntityLink, world::PhysicsWorlds},
     character::{Character, CharacterContacts, Hit},
@@ -14,11 +14,20 @@ fn can_fell(impulse: f32) -> bool {
     impulse > 0.0
 }
 
+/// What of a bad value is new.
+fn untold(told: &mut Option<u32>, bad: Option<f32>) -> Option<f32> {
+    let before = core::mem::replace(told, bad.map(f32::to_bits));
+    bad.filter(|value| before != Some(value.to_bits()))
+}
+
 /// Tells of settings that cannot work, each once.
-pub(super) fn check(changed: Query<(Entity, &CharacterRagdoll), Changed<CharacterRagdoll>>) {
-    for (entity, config) in &changed {
+pub(super) fn check(
+    mut changed: Query<(Entity, &CharacterRagdoll, &mut OwnBones), Changed<CharacterRagdoll>>,
+) {
+    for (entity, config, mut own) in &mut changed {
+        let [told_impulse, told_time] = &mut own.bypass_change_detection().told;
         let bad = config.fall_impulse.filter(|most| !can_fell(*most));
-        if let Some(value) = bad {
+        if let Some(value) = untold(told_impulse, bad) {
             let value = value.to_string();
             warn_bad(
                 entity,
@@ -28,7 +37,8 @@ pub(super) fn check(changed: Query<(Entity, &CharacterRagdoll), Changed<Characte
                 "nothing throws it down",
             );
         }
-        if let Some(time) = config.get_up_after.filter(|t| !(*t >= 0.0)) {
+        let bad = config.get_up_after.filter(|t| !(*t >= 0.0));
+        if let Some(time) = untold(told_time, bad) {
             let value = time.to_string();
             warn_bad(
                 entity,

@@ -24,7 +24,7 @@ use body::OwnBones;
 ///
 /// It writes the [`RagdollIntent::mode`](crate::ragdoll::RagdollIntent) when it is added and when its phase
 /// changes, and only then. Its own bones are nothing to its capsule. For characters at the top level of
-/// the world whose up is `+Y`.
+/// the world. The figure's [`RagdollUp`](crate::ragdoll::RagdollUp) is kept that of the character.
 #[derive(Component, Reflect, Clone, Copy, Debug, PartialEq)]
 #[reflect(Component, Default, Debug, PartialEq, Clone)]
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]

@@ -2,14 +2,16 @@
 
 mod joint;
 mod mass;
+mod overlap;
 mod shape;
 
 use bevy::prelude::*;
 
 pub use joint::{JointBreak, JointKind, JointProfile, JointSoftness};
 pub use mass::BoneMass;
+pub(crate) use overlap::overlap;
 pub use shape::BoneShape;
-pub(crate) use shape::{capsule_within, degrees, overlap, radius_of_volume};
+pub(crate) use shape::{capsule_within, degrees, radius_of_volume};
 
 /// A body plan: bones in the bind pose, each with its shape, its share of the mass and its joint.
 ///

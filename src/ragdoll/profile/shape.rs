@@ -161,41 +161,6 @@ impl BoneShape {
     }
 }
 
-/// How deep two bones lie in each other in the bind pose, metres; negative apart.
-pub(crate) fn overlap(a: &BoneShape, at: &Transform, b: &BoneShape, bt: &Transform) -> f32 {
-    let (a0, a1, ra) = a.core();
-    let (b0, b1, rb) = b.core();
-    let place = |t: &Transform, p: Vec3| t.rotation * p + t.translation;
-    let distance = between_lines(
-        (place(at, a0), place(at, a1)),
-        (place(bt, b0), place(bt, b1)),
-    );
-    ra + rb - distance
-}
-
-/// Least distance between two line segments.
-fn between_lines(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f32 {
-    let (d1, d2, r) = (a.1 - a.0, b.1 - b.0, a.0 - b.0);
-    let (aa, ee, f) = (d1.length_squared(), d2.length_squared(), d2.dot(r));
-    let (c, bb) = (d1.dot(r), d1.dot(d2));
-    let denominator = aa * ee - bb * bb;
-    let mut s = if denominator > 1.0e-9 {
-        ((bb * f - c * ee) / denominator).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    let mut t = if ee > 1.0e-9 { (bb * s + f) / ee } else { 0.0 };
-    if !(0.0..=1.0).contains(&t) {
-        t = t.clamp(0.0, 1.0);
-        s = if aa > 1.0e-9 {
-            ((bb * t - c) / aa).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-    }
-    (a.0 + d1 * s).distance(b.0 + d2 * t)
-}
-
 /// A capsule from a joint to the end of its bone that reaches neither beyond: its caps are within the
 /// length.
 pub(crate) fn capsule_within(end: Vec3, radius: f32) -> BoneShape {
@@ -275,19 +240,5 @@ mod tests {
                 + 4.0 / 3.0 * PI * radius * radius * radius;
             assert!((radius_of_volume(length, volume) - radius).abs() < 1.0e-4);
         }
-    }
-
-    #[test]
-    fn overlap_is_the_depth_of_two_capsules() {
-        let capsule = BoneShape::Capsule {
-            from: Vec3::NEG_Y,
-            to: Vec3::Y,
-            radius: 0.2,
-        };
-        let here = Transform::IDENTITY;
-        let beside = Transform::from_xyz(0.3, 0.5, 0.0);
-        assert!((overlap(&capsule, &here, &capsule, &beside) - 0.1).abs() < 1.0e-6);
-        let above = Transform::from_xyz(0.0, 3.0, 0.0);
-        assert!((overlap(&capsule, &here, &capsule, &above) + 0.6).abs() < 1.0e-6);
     }
 }

@@ -18,6 +18,8 @@ use crate::ragdoll::{
     profile::{BoneMass, BoneShape, RagdollProfile},
 };
 
+/// How much longer one axis of a skeleton may be than another.
+const EVEN: f32 = 1.02;
 /// Part of a vertex that a bone must move for the vertex to be of its body.
 const OWN: f32 = 0.5;
 
@@ -27,7 +29,8 @@ const OWN: f32 = 0.5;
 /// Bones are found by their names; their bodies are fitted to the skin that they move, with the masses
 /// and joints of anatomy; the skeleton's joints are then shown where the bodies are. The figure must
 /// face the `-Z` of this entity: glTF files face `+Z`, which Bevy's loader turns round when it is asked
-/// to (`GltfConvertCoordinates::rotate_scene_entity`).
+/// to (`GltfConvertCoordinates::rotate_scene_entity`). Its scale in the world must be the same along every
+/// axis, and that of its bones too: a mirrored or stretched skeleton is told, and stays without bones.
 ///
 /// ```
 /// # use bevy::prelude::*;
@@ -76,7 +79,8 @@ pub struct SkinReport {
     pub fitted: Vec<String>,
 }
 
-/// The ragdoll of a scene is there; its [`SkinReport`] too.
+/// The ragdoll of a scene is there, with its [`Bones`](crate::ragdoll::Bones) and its [`SkinReport`].
+/// Triggered once.
 #[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
 #[reflect(Debug, PartialEq, Clone)]
 pub struct RagdollReady {
@@ -86,7 +90,11 @@ pub struct RagdollReady {
 
 /// On a ragdoll: the joints that its bones show, by the bones' names.
 #[derive(Component, Clone, Debug, Default)]
-pub(crate) struct SkeletonJoints(pub Vec<(String, Entity, BonePose)>);
+pub(crate) struct SkeletonJoints {
+    pub joints: Vec<(String, Entity, BonePose)>,
+    /// Whether [`RagdollReady`] was triggered.
+    pub told: bool,
+}
 
 /// A mesh and how it is moved.
 type Skinned = (Entity, &'static SkinnedMesh, Option<&'static Mesh3d>);
@@ -127,6 +135,18 @@ pub(crate) fn build(
             continue;
         };
         let (bones, joints, model) = figure;
+        if let Some(what) = unfit(scale_of(entity, &nodes), &bones) {
+            tracing::warn!(
+                "{entity}: RagdollFromSkin: {what}, but needs one above 0 that is the same along every axis \
+                 (is it mirrored or stretched?); it has no bones"
+            );
+            commands.entity(entity).insert(SkinReport {
+                bones,
+                joints,
+                ..default()
+            });
+            continue;
+        }
         let found = SkeletonMatch::find(&bones, &wish.names);
         let rig = match found.rig(&bones) {
             Ok(rig) => rig,
@@ -167,21 +187,50 @@ pub(crate) fn build(
             }
             report.fitted = fit(&mut profile, &cloud);
         }
-        let joints = tie(&profile, &report);
+        let joints = SkeletonJoints {
+            joints: tie(&profile, &report),
+            told: false,
+        };
         let ragdoll = Ragdoll {
             profile,
             ..wish.ragdoll.clone()
         };
         commands
             .entity(entity)
-            .insert((ragdoll, SkeletonJoints(joints), report, FollowRoot));
-        commands.trigger(RagdollReady { entity });
+            .insert((ragdoll, joints, report, FollowRoot));
     }
 }
 
 fn coarser(a: HumanoidDetail, b: HumanoidDetail) -> bool {
     let count = |d: HumanoidDetail| BodyPart::ALL.iter().filter(|p| p.is_body(d)).count();
     count(a) <= count(b)
+}
+
+/// The scale of an entity in the world, as far as it is along its own axes.
+fn scale_of(entity: Entity, nodes: &Query<(&Transform, Option<&Name>, Option<&ChildOf>)>) -> Vec3 {
+    let (mut whole, mut at) = (Vec3::ONE, Some(entity));
+    while let Some((transform, _, parent)) = at.and_then(|e| nodes.get(e).ok()) {
+        whole *= transform.scale;
+        at = parent.map(ChildOf::parent);
+    }
+    whole
+}
+
+/// What no ragdoll can be made of, in words: bodies are as large along every axis, and not inside out.
+fn unfit(whole: Vec3, bones: &[SkeletonBone]) -> Option<String> {
+    let fits = |scale: Vec3| {
+        let (least, most) = (scale.min_element(), scale.max_element());
+        scale.is_finite() && least > 0.0 && most <= EVEN * least
+    };
+    if !fits(whole) {
+        return Some(format!("its scale is {whole}"));
+    }
+    let bone = bones.iter().find(|bone| !fits(bone.pose.scale))?;
+    let name = &bone.name;
+    Some(format!(
+        "bone \"{name}\" has the scale {} in its bind pose",
+        bone.pose.scale
+    ))
 }
 
 /// The bones of a skin in their bind pose, in the axes of the figure, and what takes the model there.
@@ -195,13 +244,6 @@ fn read(
     let parent = |e: Entity| nodes.get(e).ok()?.2.map(ChildOf::parent);
     let bind =
         |i: usize| Transform::from_matrix(binds.get(i).map_or(Mat4::IDENTITY, Mat4::inverse));
-    // The scale of the figure as a whole counts; its place does not.
-    let mut whole = nodes.get(entity).ok()?.0.scale;
-    let mut above = parent(entity);
-    while let Some(up) = above {
-        whole *= nodes.get(up).ok()?.0.scale;
-        above = parent(up);
-    }
     let bones: Vec<SkeletonBone> = (skin.joints.iter().enumerate())
         .map(|(i, joint)| {
             let mut up = parent(*joint);
@@ -230,7 +272,8 @@ fn read(
         at = parent(at)?;
     }
     let model = Transform::from_matrix(place.to_matrix() * bind(root).to_matrix().inverse());
-    let model = Transform::from_scale(whole) * model;
+    // The scale of the figure as a whole counts; its place does not.
+    let model = Transform::from_scale(scale_of(entity, nodes)) * model;
     let posed = |mut bone: SkeletonBone| {
         bone.pose = model * bone.pose;
         bone

@@ -52,7 +52,7 @@ pub fn unique_entities(sim: &mut Sim) {
         tracing::subscriber::set_global_default(Ear).expect("no other listener in this binary");
     });
     // Worlds that do not listen stay below the first id; those that do spawn less than the step.
-    let first = 20_000 + WORLDS.fetch_add(1, Ordering::Relaxed) * 64;
+    let first = 20_000 + WORLDS.fetch_add(1, Ordering::Relaxed) * 256;
     let world = sim.app.world_mut();
     while world.spawn_empty().id().index_u32() < first {}
 }

@@ -277,3 +277,43 @@ fn a_figure_that_goes_with_its_root_is_shown_without_sliding_when_it_comes_back(
         findings.near(format!("{hz} Hz: it stands, m"), last.y, 0.53 * 1.75, 0.02);
     }
 }
+
+#[test]
+fn what_is_animated_again_is_to_the_bit_as_the_animation_has_it() {
+    let mut findings = Findings::new();
+    for hz in RATES {
+        let (mut sim, entity, joints) = skinned(hz, RagdollMode::HitBoxes, Vec3::Y * 20.0);
+        // Some joints stand still, others are written again and again.
+        let wave = |sim: &mut Sim, tick: usize| {
+            let turn = Quat::from_rotation_x(0.3 + 0.01 * tick as f32);
+            edit::<Transform>(sim, joints["upper_arm_l"], |t| t.rotation = turn);
+        };
+        sim.ticks(2);
+        wave(&mut sim, 0);
+        sim.ticks(1);
+        let before = locals(&sim, &joints);
+        for mode in [RagdollMode::Limp, RagdollMode::Powered, RagdollMode::Frozen] {
+            ask(&mut sim, entity, mode);
+            for tick in 0..(hz * 0.4) as usize {
+                wave(&mut sim, tick);
+                sim.ticks(1);
+            }
+            let away = locals(&sim, &joints);
+            findings.holds(format!("{hz} Hz, {mode:?}: it was away"), away != before);
+            ask(&mut sim, entity, RagdollMode::Animated);
+            for tick in 0..(hz * 1.2) as usize {
+                wave(&mut sim, tick);
+                sim.ticks(1);
+            }
+            // The last word of the animation, with or without another tick of it.
+            for again in [true, false] {
+                if again {
+                    wave(&mut sim, 0);
+                }
+                sim.ticks(1);
+                let now = locals(&sim, &joints);
+                findings.same(format!("{hz} Hz, {mode:?}: joints"), &before, &now);
+            }
+        }
+    }
+}

@@ -277,3 +277,37 @@ fn an_impulse_of_nothing_throws_nobody_down_and_is_told_once() {
         told.len() == 1 && told[0].contains("fall_impulse is 0"),
     );
 }
+
+#[test]
+fn bad_settings_of_a_character_that_can_fall_are_told_once_though_written_every_tick() {
+    let mut findings = Findings::new();
+    let mut sim = Sim::new(60.0);
+    ground(&mut sim);
+    crate::character::warnings::unique_entities(&mut sim);
+    let bad = CharacterRagdoll {
+        fall_impulse: Some(-3.0),
+        get_up_after: Some(f32::NAN),
+        ..default()
+    };
+    let entity = person(&mut sim, Vec3::ZERO, bad);
+    for _ in 0..20 {
+        insert(&mut sim, entity, bad);
+        sim.ticks(1);
+    }
+    let told = || crate::character::warnings::about(entity);
+    findings.near("warnings", told().len() as f32, 2.0, 0.0);
+    // Another bad value is news, and so is the same one after a good one.
+    let other = CharacterRagdoll {
+        fall_impulse: Some(f32::NAN),
+        ..bad
+    };
+    let good = CharacterRagdoll {
+        fall_impulse: None,
+        ..bad
+    };
+    for config in [other, good, other] {
+        insert(&mut sim, entity, config);
+        sim.ticks(2);
+    }
+    findings.near("warnings", told().len() as f32, 4.0, 0.0);
+}

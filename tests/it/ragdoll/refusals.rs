@@ -252,3 +252,76 @@ fn a_figure_that_lost_a_bone_as_it_was_made_is_tied_together_without_it() {
     findings.at_most("gap, m", gap, 0.01);
     once(&mut findings, "gone", entity, &["\"forearm_l\"", "is gone"]);
 }
+
+#[test]
+fn a_time_to_rise_that_is_none_is_told_once_and_it_rises_all_the_same() {
+    let mut findings = Findings::new();
+    for bad in [f32::NAN, f32::INFINITY, -1.0] {
+        let (mut sim, _) = listening();
+        let mode = RagdollMode::Limp;
+        let entity = human(&mut sim, HumanoidDetail::Bodies10, mode, Vec3::Y * 0.2);
+        sim.seconds(2.0);
+        ask(&mut sim, entity, RagdollMode::GettingUp);
+        // Written again and again.
+        for _ in 0..60 {
+            edit::<RagdollState>(&mut sim, entity, |s| s.rise_time = bad);
+            sim.ticks(1);
+        }
+        let words = ["RagdollState::rise_time", "at least 0"];
+        once(&mut findings, &format!("{bad}"), entity, &words);
+        let head = sim.position(bone(&sim, entity, "head")).y;
+        findings.at_least(format!("{bad}: it stands: head, m"), head, 1.3);
+    }
+}
+
+#[test]
+fn an_up_that_is_no_direction_is_told_once_and_is_above() {
+    let mut findings = Findings::new();
+    for bad in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
+        let (mut sim, _) = listening();
+        let mode = RagdollMode::Limp;
+        let entity = human(&mut sim, HumanoidDetail::Bodies10, mode, Vec3::Y * 0.2);
+        insert(&mut sim, entity, FollowRoot);
+        for _ in 0..60 {
+            insert(&mut sim, entity, RagdollUp(bad));
+            sim.ticks(1);
+        }
+        once(&mut findings, &format!("{bad}"), entity, &["RagdollUp"]);
+        findings.holds("finite", finite(&sim, entity));
+        let up = sim.get::<Transform>(entity).rotation * Vec3::Y;
+        findings.at_most("up, off", up.distance(Vec3::Y), 1.0e-3);
+    }
+}
+
+#[test]
+fn a_joint_that_two_bones_would_show_is_shown_by_the_first_and_told() {
+    let mut findings = Findings::new();
+    let (mut sim, _) = listening();
+    let mode = RagdollMode::HitBoxes;
+    let [a, b] = [1.0, 4.0].map(|x| {
+        human(
+            &mut sim,
+            HumanoidDetail::Bodies10,
+            mode,
+            Vec3::new(x, 1.0, 0.0),
+        )
+    });
+    sim.ticks(2);
+    let joint = sim.spawn(Transform::from_xyz(1.0, 2.6, 0.0));
+    let [of_a, of_b] = [a, b].map(|who| bone(&sim, who, "head"));
+    insert(&mut sim, of_a, BoneJoint::new(joint));
+    sim.ticks(2);
+    insert(&mut sim, of_b, BoneJoint::new(joint));
+    sim.ticks(5);
+    let words = ["\"head\"", "BoneJoint::joint", &a.to_string()];
+    once(&mut findings, "shared", b, &words);
+    findings.holds(
+        "the first shows it",
+        sim.app.world().get::<BoneJoint>(of_a).is_some(),
+    );
+    findings.holds(
+        "the second shows none",
+        sim.app.world().get::<BoneJoint>(of_b).is_none(),
+    );
+    findings.holds("finite", finite(&sim, a) && finite(&sim, b));
+}

@@ -155,3 +155,89 @@ fn a_figure_freezes_when_that_is_due_and_thaws_when_it_is_hit() {
         sim.get::<RagdollState>(entity).mode == RagdollMode::Limp,
     );
 }
+
+#[test]
+fn a_figure_baked_below_something_that_is_turned_lies_there_again() {
+    let mut findings = Findings::new();
+    let mut sim = Sim::new(60.0);
+    ground(&mut sim);
+    let above = Transform::from_xyz(1.0, 0.3, 2.0)
+        .with_rotation(Quat::from_rotation_y(0.9))
+        .with_scale(Vec3::splat(1.0));
+    let parent = sim.spawn(above);
+    let mode = RagdollMode::Limp;
+    let entity = human(&mut sim, HumanoidDetail::Bodies15, mode, Vec3::ZERO);
+    insert(&mut sim, entity, ChildOf(parent));
+    sim.seconds(4.0);
+    let places = |sim: &Sim| -> Vec<Vec3> {
+        let all = bones(sim, entity);
+        all.iter().map(|b| sim.position(*b)).collect()
+    };
+    let ragdoll = sim.get::<Ragdoll>(entity);
+    // Again and again.
+    for round in 0..3 {
+        let lay = places(&sim);
+        sim.app.world_mut().trigger(BakeRagdoll { entity });
+        sim.ticks(3);
+        findings.holds(format!("{round}: no bones"), bones(&sim, entity).is_empty());
+        // Twice is nothing more.
+        sim.app.world_mut().trigger(BakeRagdoll { entity });
+        insert(&mut sim, entity, ragdoll.clone());
+        sim.ticks(2);
+        let now = places(&sim);
+        findings.near(format!("{round}: bones"), now.len() as f32, 15.0, 0.0);
+        for (a, b) in lay.iter().zip(&now) {
+            findings.at_most(format!("{round}: off, m"), a.distance(*b), 5.0e-3);
+        }
+        findings.holds(format!("{round}: finite"), finite(&sim, entity));
+    }
+}
+
+#[test]
+fn a_figure_baked_before_it_was_anywhere_keeps_the_pose_asked_for() {
+    let mut findings = Findings::new();
+    let mut sim = Sim::new(60.0);
+    let mode = RagdollMode::HitBoxes;
+    let entity = human(&mut sim, HumanoidDetail::Bodies10, mode, Vec3::Y);
+    let profile = sim.get::<Ragdoll>(entity).profile;
+    let pose = RagdollPose::from_turns(&profile, [("head", Quat::from_rotation_x(0.3))]);
+    insert(&mut sim, entity, pose.clone());
+    sim.app.world_mut().trigger(BakeRagdoll { entity });
+    sim.ticks(2);
+    findings.holds("the pose", sim.get::<RagdollPose>(entity) == pose);
+    findings.holds("no bones", bones(&sim, entity).is_empty());
+}
+
+#[test]
+fn what_a_bone_took_its_pose_from_may_go_and_the_figure_may_go_and_come() {
+    let mut findings = Findings::new();
+    let mode = RagdollMode::HitBoxes;
+    let (mut sim, entity) = alone(60.0, HumanoidDetail::Bodies10, mode, Vec3::Y);
+    sim.ticks(2);
+    let head = bone(&sim, entity, "head");
+    let at = Vec3::new(0.3, 3.0, 0.0);
+    let source = sim.spawn(Transform::from_translation(at));
+    insert(&mut sim, head, BoneSource(source));
+    sim.ticks(20);
+    findings.at_most("at its source, m", sim.position(head).distance(at), 1.0e-3);
+    sim.app.world_mut().despawn(source);
+    sim.ticks(20);
+    let off = sim.position(head).distance(at);
+    findings.at_most("the source is gone, m", off, 1.0e-3);
+    ask(&mut sim, entity, RagdollMode::Limp);
+    sim.seconds(0.5);
+    findings.holds("finite", finite(&sim, entity));
+    let ragdoll = sim.get::<Ragdoll>(entity);
+    for round in 0..3 {
+        sim.app.world_mut().entity_mut(entity).remove::<Ragdoll>();
+        sim.ticks(round);
+        findings.holds("no bones", bones(&sim, entity).is_empty());
+        edit::<Transform>(&mut sim, entity, |t| t.translation.x += 3.0);
+        insert(&mut sim, entity, ragdoll.clone());
+        sim.ticks(2);
+        let pelvis = sim.position(bone(&sim, entity, "pelvis"));
+        let figure = sim.position(entity);
+        findings.at_most("beside its figure, m", (pelvis.x - figure.x).abs(), 0.05);
+        findings.near("bones", bones(&sim, entity).len() as f32, 10.0, 0.0);
+    }
+}

@@ -4,6 +4,7 @@ use core::f32::consts::FRAC_PI_2;
 
 use bevy::prelude::*;
 use bevy_embody::{prelude::*, ragdoll::Lying};
+use bevy_rapier3d::prelude::Collider;
 use embody_scenes::Sim;
 
 use super::support::*;
@@ -45,6 +46,7 @@ fn lying(sim: &Sim, entity: Entity) -> Lying {
     Lying::of(
         sim.get::<Transform>(bone(sim, entity, "pelvis")).rotation,
         bind,
+        Vec3::Y,
     )
 }
 
@@ -197,4 +199,40 @@ fn a_figure_gets_up_on_the_step_or_the_slope_that_it_lies_on() {
     sim.ticks(1);
     let at = sim.position(entity);
     findings.near("on the slope", at.y, -at.z * tilt.tan(), 0.01);
+}
+
+#[test]
+fn where_up_is_another_way_a_figure_lies_follows_and_gets_up_along_it() {
+    let mut findings = Findings::new();
+    for up in [Vec3::X, Vec3::NEG_Y, Vec3::new(0.6, -0.48, 0.64)] {
+        let mut sim = Sim::new(60.0);
+        gravity(&mut sim, up * -G);
+        let upright = Quat::from_rotation_arc(Vec3::Y, up);
+        sim.fixed(
+            Collider::cuboid(10.0, 0.5, 10.0),
+            Transform::from_translation(up * -0.5).with_rotation(upright),
+        );
+        let profile = RagdollProfile::humanoid(HumanoidDetail::Bodies19, 1.75);
+        let ways = clips(&profile);
+        let at = Transform::from_translation(up * 0.2)
+            .with_rotation(Quat::from_axis_angle(up, 0.7) * upright);
+        let ragdoll = Ragdoll::new(profile, 75.0);
+        let entity = sim.spawn((ragdoll, ways, RagdollUp(up), FollowRoot, at));
+        sim.seconds(4.0);
+        let figure = sim.get::<Transform>(entity);
+        let what = format!("up {up}");
+        let tilt = (figure.rotation * Vec3::Y).distance(up);
+        findings.at_most(format!("{what}: the figure's up, off"), tilt, 1.0e-3);
+        let height = figure.translation.dot(up);
+        findings.near(format!("{what}: on the floor, m"), height, 0.0, 0.03);
+        ask(&mut sim, entity, RagdollMode::GettingUp);
+        sim.seconds(1.5);
+        let figure = sim.get::<Transform>(entity);
+        let tilt = (figure.rotation * Vec3::Y).distance(up);
+        findings.at_most(format!("{what}: stands along up, off"), tilt, 1.0e-3);
+        let height = figure.translation.dot(up);
+        findings.near(format!("{what}: feet, m"), height, 0.0, 0.01);
+        let head = sim.position(bone(&sim, entity, "head")).dot(up);
+        findings.near(format!("{what}: head, m"), head, 1.52, 0.1);
+    }
 }

@@ -17,8 +17,13 @@ use bevy_embody::{
 use embody_scenes::Sim;
 
 use super::support::*;
+use crate::character::warnings;
 
-fn loaded(wish: RagdollFromSkin) -> (Sim, Entity) {
+/// Bones that each figure had when it was said to be ready.
+#[derive(Resource, Default)]
+struct Ready(Vec<(Entity, usize)>);
+
+fn loaded(wish: RagdollFromSkin, scale: Vec3) -> (Sim, Entity) {
     let assets = AssetPlugin {
         file_path: concat!(env!("CARGO_MANIFEST_DIR"), "/assets").into(),
         ..default()
@@ -40,6 +45,13 @@ fn loaded(wish: RagdollFromSkin) -> (Sim, Entity) {
         ),
     );
     sim.floor(0.0);
+    warnings::unique_entities(&mut sim);
+    sim.app.init_resource::<Ready>().add_observer(
+        |ready: On<RagdollReady>, bones: Query<&Bones>, mut all: ResMut<Ready>| {
+            let count = bones.get(ready.entity).map_or(0, |b| b.iter().count());
+            all.0.push((ready.entity, count));
+        },
+    );
     let server = sim.app.world().resource::<AssetServer>().clone();
     let scene = server
         .load_builder()
@@ -50,7 +62,9 @@ fn loaded(wish: RagdollFromSkin) -> (Sim, Entity) {
             });
         })
         .load(GltfAssetLabel::Scene(0).from_asset("human.glb"));
-    let at = Transform::from_xyz(1.0, 0.0, 2.0).with_rotation(Quat::from_rotation_y(0.6));
+    let at = Transform::from_xyz(1.0, 0.0, 2.0)
+        .with_rotation(Quat::from_rotation_y(0.6))
+        .with_scale(scale);
     let entity = sim.spawn((WorldAssetRoot(scene), wish, at));
     for _ in 0..2000 {
         sim.ticks(1);
@@ -67,8 +81,13 @@ fn loaded(wish: RagdollFromSkin) -> (Sim, Entity) {
 fn a_loaded_human_is_a_ragdoll_that_fills_its_skin_and_falls_with_it() {
     let mut wish = RagdollFromSkin::default();
     wish.ragdoll.mass = 78.0;
-    let (mut sim, entity) = loaded(wish);
+    let (mut sim, entity) = loaded(wish, Vec3::ONE);
     let mut findings = Findings::new();
+    let ready = &sim.app.world().resource::<Ready>().0;
+    findings.holds(
+        format!("ready with its bones, once: {ready:?}"),
+        *ready == [(entity, 19)],
+    );
     let report = sim.get::<SkinReport>(entity);
     findings.holds(
         format!("level {:?}", report.detail),
@@ -143,4 +162,35 @@ fn a_loaded_human_is_a_ragdoll_that_fills_its_skin_and_falls_with_it() {
         worst(&sim, entity, |o| o.velocity.length()),
         0.3,
     );
+}
+
+#[test]
+fn a_mirrored_or_stretched_skin_is_told_and_has_no_bones() {
+    let mut findings = Findings::new();
+    for scale in [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, 1.5, 1.0)] {
+        let (mut sim, entity) = loaded(RagdollFromSkin::default(), scale);
+        sim.ticks(20);
+        findings.holds(format!("{scale}: no bones"), bones(&sim, entity).is_empty());
+        let told = warnings::about(entity);
+        let named = told
+            .iter()
+            .filter(|line| line.contains("RagdollFromSkin") && line.contains(&scale.to_string()));
+        findings.near(format!("{scale}: {told:?}"), named.count() as f32, 1.0, 0.0);
+        let ready = sim.app.world().resource::<Ready>().0.len();
+        findings.near(format!("{scale}: ready"), ready as f32, 0.0, 0.0);
+    }
+}
+
+#[test]
+fn a_skin_that_is_twice_as_large_is_a_figure_twice_as_large() {
+    let mut findings = Findings::new();
+    let (mut sim, entity) = loaded(RagdollFromSkin::default(), Vec3::splat(2.0));
+    let told = warnings::about(entity);
+    findings.holds(format!("nothing is told: {told:?}"), told.is_empty());
+    let head = sim.position(bone(&sim, entity, "head")).y;
+    findings.near("head, m", head, 3.16, 0.1);
+    sim.seconds(1.0);
+    findings.holds("finite", finite(&sim, entity));
+    let gap = worst(&sim, entity, |o| o.gap);
+    findings.at_most("gap, m", gap, 0.01);
 }

@@ -1,6 +1,9 @@
 //! What the tests of ragdolls share.
 
-use bevy::{math::ops, prelude::*};
+use bevy::{
+    math::{Vec2, ops},
+    prelude::*,
+};
 use bevy_embody::prelude::*;
 use bevy_rapier3d::prelude::*;
 use embody_scenes::Sim;
@@ -31,6 +34,81 @@ pub fn above_ground(hz: f64, detail: HumanoidDetail, mode: RagdollMode, at: f32)
     ground(&mut sim);
     let entity = human(&mut sim, detail, mode, Vec3::Y * at);
     (sim, entity)
+}
+
+/// Sets the gravity of the world, metres per second squared.
+pub fn gravity(sim: &mut Sim, to: Vec3) {
+    let world = sim.app.world_mut();
+    let mut worlds = world.query::<&mut RapierConfiguration>();
+    for mut config in worlds.iter_mut(world) {
+        config.gravity = to;
+    }
+}
+
+/// Swings arms and legs as at a sprint.
+pub fn sprint(sim: &mut Sim, ragdoll: Entity, tick: usize) {
+    let profile = sim.get::<Ragdoll>(ragdoll).profile;
+    let swing = ops::sin(tick as f32 * sim.dt() * 14.0);
+    let x = Quat::from_rotation_x;
+    let elbow = |name: &str| {
+        let axis = profile.bone(name).map_or(Quat::IDENTITY, |b| b.joint.frame) * Vec3::X;
+        Quat::from_axis_angle(axis, 1.5)
+    };
+    let pose = RagdollPose::from_turns(
+        &profile,
+        [
+            ("pelvis", x(-0.2)),
+            ("thigh_l", x(0.5 + 0.7 * swing)),
+            ("thigh_r", x(0.5 - 0.7 * swing)),
+            ("shin_l", x(-0.9 + 0.7 * swing)),
+            ("shin_r", x(-0.9 - 0.7 * swing)),
+            ("upper_arm_l", x(-0.8 * swing)),
+            ("upper_arm_r", x(0.8 * swing)),
+            ("forearm_l", elbow("forearm_l")),
+            ("forearm_r", elbow("forearm_r")),
+        ],
+    );
+    insert(sim, ragdoll, pose);
+}
+
+/// A pose in which every joint is somewhere within this part of its limits, evenly.
+pub fn random_pose(profile: &RagdollProfile, dice: &mut Dice, part: f32) -> RagdollPose {
+    let turns: Vec<(&str, Quat)> = (profile.bones.iter())
+        .map(|bone| {
+            let mut within = |range: Vec2| {
+                let middle = 0.5 * (range.x + range.y);
+                middle + 0.5 * part * dice.roll() * (range.y - range.x)
+            };
+            let about = |v: Vec3| Quat::from_scaled_axis(v);
+            let local = match bone.joint.kind {
+                JointKind::Ball {
+                    swing,
+                    center,
+                    twist,
+                } => {
+                    let twist = within(twist);
+                    // Within the ellipse, not only within the box about it.
+                    let y = within(Vec2::new(-swing.x, swing.x)) * core::f32::consts::FRAC_1_SQRT_2;
+                    let z = within(Vec2::new(-swing.y, swing.y)) * core::f32::consts::FRAC_1_SQRT_2;
+                    let center = about(Vec3::new(0.0, center.x, center.y));
+                    center * about(Vec3::new(0.0, y, z)) * Quat::from_rotation_x(twist)
+                }
+                JointKind::Condyloid { swing, center } => {
+                    let y = within(Vec2::new(-swing.x, swing.x)) * core::f32::consts::FRAC_1_SQRT_2;
+                    let z = within(Vec2::new(-swing.y, swing.y)) * core::f32::consts::FRAC_1_SQRT_2;
+                    about(Vec3::new(0.0, center.x, center.y)) * about(Vec3::new(0.0, y, z))
+                }
+                JointKind::Hinge { min, max } | JointKind::Pivot { min, max } => {
+                    Quat::from_rotation_x(within(Vec2::new(min, max)))
+                }
+                JointKind::Saddle { y, z } => about(Vec3::new(0.0, within(y), within(z))),
+                JointKind::Gliding { .. } | JointKind::Fixed => Quat::IDENTITY,
+            };
+            let frame = bone.joint.frame;
+            (bone.name.as_str(), frame * local * frame.inverse())
+        })
+        .collect();
+    RagdollPose::from_turns(profile, turns)
 }
 
 /// Moves a figure on by one tick at this velocity, metres per second.
