@@ -1,5 +1,6 @@
-//! A vehicle on steady ground allocates nothing, whatever its wheels feel with. A test program of its
-//! own: the allocator that counts and the pool of one thread are those of the whole process.
+//! A vehicle on steady ground allocates nothing, whatever its wheels feel with, and a ragdoll in no mode,
+//! also when its settings are tuned every tick. A test program of its own: the allocator that counts and
+//! the pool of one thread are those of the whole process.
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
@@ -7,7 +8,7 @@ use std::{
 };
 
 use bevy::{app::TaskPoolOptions, math::ops, prelude::*};
-use bevy_embody::prelude::*;
+use bevy_embody::{prelude::*, ragdoll::RagdollSystems};
 use bevy_rapier3d::prelude::*;
 use embody_scenes::{Patch, Sim, harness::around_tick, reference::*};
 
@@ -48,7 +49,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Allocations of the vehicle's systems so far.
+/// Allocations of the systems that are counted so far.
 #[derive(Resource, Default)]
 struct Allocated(u32);
 
@@ -60,16 +61,26 @@ fn end(mut allocated: ResMut<Allocated>) {
     allocated.0 += COUNT.take().unwrap_or(0);
 }
 
-/// A world on this one thread whose vehicle systems are counted.
-fn counted_sim() -> Sim {
-    let mut sim = Sim::with(60.0, (EmbodyCorePlugin, VehiclePlugin));
+/// A world on this one thread whose systems in these sets are counted.
+fn counted_sim<S: SystemSet + Copy>(plugin: impl Plugin, sets: [S; 3]) -> Sim {
+    let mut pools = TaskPoolOptions::default();
+    pools.compute.min_threads = 1;
+    pools.compute.max_threads = 1;
+    pools.create_default_pools();
+    let mut sim = Sim::with(60.0, (EmbodyCorePlugin, plugin));
     sim.app.init_resource::<Allocated>();
-    let sets = {
-        use VehicleSystems::{Drive, Prepare, React};
-        [Prepare, Drive, React]
-    };
     around_tick(&mut sim.app, sets, begin, end);
     sim.in_line()
+}
+
+/// Allocations in this many seconds.
+fn allocations(sim: &mut Sim, seconds: f64, mut each: impl FnMut(&mut Sim)) -> u32 {
+    sim.app.world_mut().resource_mut::<Allocated>().0 = 0;
+    for _ in 0..(seconds * 60.0) as usize {
+        each(sim);
+        sim.ticks(1);
+    }
+    sim.app.world().resource::<Allocated>().0
 }
 
 /// Bodies around the wheels: such as probes begin in, end on and pass by.
@@ -102,10 +113,7 @@ fn clutter(sim: &mut Sim) {
 
 #[test]
 fn a_steady_tick_allocates_nothing_with_rays_spheres_or_cylinders() {
-    let mut pools = TaskPoolOptions::default();
-    pools.compute.min_threads = 1;
-    pools.compute.max_threads = 1;
-    pools.create_default_pools();
+    use VehicleSystems::{Drive, Prepare, React};
     let probes = [
         WheelProbe::Ray,
         WheelProbe::Rays { count: 3 },
@@ -116,7 +124,7 @@ fn a_steady_tick_allocates_nothing_with_rays_spheres_or_cylinders() {
     let mut wrong = Vec::new();
     for probe in probes {
         for ground in grounds {
-            let mut sim = counted_sim();
+            let mut sim = counted_sim(VehiclePlugin, [Prepare, Drive, React]);
             if ground == "mesh" {
                 let wavy = |x: f32, z: f32| 0.05 * ops::sin(x) + 0.05 * ops::cos(z);
                 let terrain = Patch::terrain(60, 1.0, wavy);
@@ -138,9 +146,7 @@ fn a_steady_tick_allocates_nothing_with_rays_spheres_or_cylinders() {
                 _ => car.ask(&mut sim, |i| i.throttle = 1.0),
             }
             sim.seconds(2.0);
-            sim.app.world_mut().resource_mut::<Allocated>().0 = 0;
-            sim.seconds(3.0);
-            let count = sim.app.world().resource::<Allocated>().0;
+            let count = allocations(&mut sim, 3.0, |_| ());
             if count > 0 {
                 wrong.push(format!("{probe:?} on {ground}: {count}"));
             }
@@ -148,4 +154,41 @@ fn a_steady_tick_allocates_nothing_with_rays_spheres_or_cylinders() {
         }
     }
     assert!(wrong.is_empty(), "allocations in 180 ticks: {wrong:?}");
+}
+
+#[test]
+fn a_ragdoll_whose_settings_are_tuned_every_tick_allocates_nothing() {
+    use RagdollSystems::{Drive, Prepare, React};
+    let modes = [
+        RagdollMode::Animated,
+        RagdollMode::HitBoxes,
+        RagdollMode::Partial,
+        RagdollMode::Powered,
+        RagdollMode::Keyframed,
+        RagdollMode::Limp,
+        RagdollMode::Frozen,
+        RagdollMode::GettingUp,
+    ];
+    let mut wrong = Vec::new();
+    for mode in modes {
+        for tunes in [false, true] {
+            let mut sim = counted_sim(RagdollPlugin, [Prepare, Drive, React]);
+            sim.block(Vec3::NEG_Y * 0.5, Vec3::new(20.0, 1.0, 20.0));
+            let intent = RagdollIntent { mode, ..default() };
+            let entity = sim.spawn((Ragdoll::default(), intent, FollowRoot));
+            // Until who falls lies, and that has been told.
+            sim.seconds(6.0);
+            let count = allocations(&mut sim, 2.0, |sim| {
+                if tunes {
+                    let mut ragdoll = sim.app.world_mut().get_mut::<Ragdoll>(entity);
+                    let ragdoll = ragdoll.as_deref_mut().expect("it is one");
+                    ragdoll.drive.frequency += 0.01;
+                }
+            });
+            if count > 0 {
+                wrong.push(format!("{mode:?}, tuned {tunes}: {count}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "allocations in 120 ticks: {wrong:?}");
 }

@@ -122,20 +122,28 @@ fn climb(
     Some(whole)
 }
 
+/// Whether a bone was given a joint since the last tick.
+#[derive(Resource, Default)]
+pub(super) struct NewJoints(bool);
+
+pub(super) fn note_joint(_: On<Insert, BoneJoint>, mut new: ResMut<NewJoints>) {
+    new.0 = true;
+}
+
 /// Two bones cannot show one joint: the later one is told, and shows none.
 pub(super) fn tell_shared(
     mut commands: Commands,
-    new: Query<(), Added<BoneJoint>>,
+    mut new: ResMut<NewJoints>,
     all: Query<(Entity, Ref<BoneJoint>, Option<&Name>, Option<&BoneOf>)>,
 ) {
-    if new.is_empty() {
+    if !core::mem::take(&mut new.0) {
         return;
     }
     let name = |name: Option<&Name>| name.map_or(String::new(), |n| n.as_str().to_owned());
     let mut shown: EntityHashMap<Entity> = EntityHashMap::default();
     // Those that were there first, first.
-    for added in [false, true] {
-        for (bone, joint, own, of) in all.iter().filter(|(_, j, ..)| j.is_added() == added) {
+    for late in [false, true] {
+        for (bone, joint, own, of) in all.iter().filter(|(_, j, ..)| j.is_changed() == late) {
             let Some(first) = shown.insert(joint.joint, bone) else {
                 continue;
             };

@@ -69,7 +69,7 @@ pub(super) fn tie(
         handles.clear();
         handles.resize(plan.bones.len(), None);
         for (bone, link, handle, _) in bones.iter_many(tied.iter()) {
-            if let Some(slot) = handles.get_mut(bone.order) {
+            if let Some(slot @ None) = handles.get_mut(bone.order) {
                 *slot = Some((*link, *handle));
             }
         }
@@ -244,6 +244,18 @@ pub(super) fn drive(
                 continue;
             };
             if is.order >= count {
+                continue;
+            }
+            if slots[is.order].is_some() {
+                let ties = ties.bypass_change_detection();
+                if !ties.told {
+                    let name = name.map_or("", Name::as_str);
+                    tracing::warn!(
+                        "{entity}: ragdoll: bone \"{name}\" is there twice, as {bone} too; it is left alone \
+                         (was BoneOf written?)"
+                    );
+                }
+                ties.told = true;
                 continue;
             }
             let Some(motion) = worlds.motion(link, handle) else {

@@ -141,10 +141,12 @@ impl Plugin for RagdollPlugin {
             .add_observer(sever::note_joined)
             .add_observer(balance::forget)
             .add_observer(teleport::carry)
+            .add_observer(blend::note_joint)
             .init_resource::<ForcedBodies>()
             .init_resource::<PinAnchors>()
             .init_resource::<JointIterations>()
             .init_resource::<drive::BoneForces>()
+            .init_resource::<blend::NewJoints>()
             .configure_sets(
                 FixedPostUpdate,
                 (

@@ -35,6 +35,8 @@ pub(crate) struct RagdollPlan {
     pub told_rise: bool,
     /// Whether any joint can part.
     pub breakable: bool,
+    /// The largest ratio of what hangs on a bone, with it, to the bone that bears it.
+    pub load: f32,
     /// Substeps beyond those of the physics world.
     pub extra_substeps: usize,
     /// Kilograms.
@@ -66,6 +68,10 @@ pub(crate) struct PlannedBone {
     /// Inertia of everything that hangs on the joint about it, along the child's axes of the joint.
     pub carried: Vec3,
 }
+
+/// Friction slows what hangs on a joint by at most this, radians per second squared: above what the joints of
+/// people do, and below what the solver still brings together with their limits in a figure of ten grams.
+const MOST_SLOWING: f32 = 150.0;
 
 /// The indices of a profile's bones with parents before children; bones that hang on none of them, as
 /// in a cycle, are left out.
@@ -121,6 +127,9 @@ impl RagdollPlan {
             })
             .collect();
         let sums = subtrees(&own, &parents);
+        let load =
+            |(i, parent): (usize, &Option<usize>)| parent.map_or(0.0, |p| sums[i].mass / masses[p]);
+        let load = parents.iter().enumerate().map(load).fold(0.0, f32::max);
         let bones: Vec<PlannedBone> = (order.iter().enumerate())
             .map(|(i, o)| {
                 let bone = &profile.bones[*o];
@@ -168,6 +177,7 @@ impl RagdollPlan {
             told: false,
             told_up: false,
             told_rise: false,
+            load,
             extra_substeps: 0,
             mass: config.mass,
             inertia: (figure.x_axis.x + figure.y_axis.y + figure.z_axis.z) / 3.0,
@@ -205,6 +215,12 @@ pub(super) fn bounds(range: Vec2) -> Option<[f32; 2]> {
 }
 
 impl PlannedBone {
+    /// Torque with which its joint resists turning, newton-metres.
+    pub fn friction(&self) -> f32 {
+        let most = self.carried.max_element() * MOST_SLOWING;
+        self.joint.friction.min(most)
+    }
+
     /// What its joint takes away or bounds.
     pub fn rows(&self) -> JointRows {
         let mut rows = JointRows {

@@ -26,13 +26,21 @@ const SUBSTEP: f32 = 1.0 / 240.0;
 /// Substeps of a tick in the physics engine, unless the game sets others.
 const USUAL_SUBSTEPS: f32 = 4.0;
 /// The most that are added.
-const MOST_SUBSTEPS: f32 = 12.0;
+const MOST_SUBSTEPS: f32 = 28.0;
+/// A joint that bears so many times the mass of the bone it hangs from is held by these substeps.
+const USUAL_LOAD: f32 = 20.0;
 
 /// How many substeps are added at this length of a tick, seconds.
-fn extra_substeps(dt: f32) -> usize {
+fn extra_substeps(dt: f32, finer: f32) -> usize {
     // A hair less, so that a rate that is no round number of seconds does not ask for one more.
-    let wanted = (dt / SUBSTEP - 0.01).ceil() - USUAL_SUBSTEPS;
+    let wanted = (dt / SUBSTEP * finer - 0.01).ceil() - USUAL_SUBSTEPS;
     wanted.clamp(0.0, MOST_SUBSTEPS) as usize
+}
+
+/// How many times finer than usual the substeps of a figure must be: gaps grow with the load, and with the
+/// square of the substep.
+fn finer(plan: &RagdollPlan) -> f32 {
+    (plan.load / USUAL_LOAD).clamp(1.0, 16.0).sqrt()
 }
 
 /// Adds as many substeps as the tick needs, also when its length changes.
@@ -45,8 +53,8 @@ pub(super) fn pace(
     if !(dt > 0.0) {
         return;
     }
-    let wanted = extra_substeps(dt);
     for (mut plan, tied) in &mut ragdolls {
+        let wanted = extra_substeps(dt, finer(&plan));
         if plan.extra_substeps == wanted {
             continue;
         }
@@ -119,7 +127,7 @@ pub(super) fn build(
             tracing::warn!("{entity}: ragdoll: {line}");
         }
         *plan = RagdollPlan::of(&config);
-        plan.extra_substeps = extra_substeps(time.delta_secs());
+        plan.extra_substeps = extra_substeps(time.delta_secs(), finer(&plan));
         // One that came with a state goes on from there.
         let saved = config.is_added() && state.bones.len() == plan.bones.len();
         if !saved {

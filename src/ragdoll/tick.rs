@@ -245,13 +245,15 @@ pub(super) fn drive(
     if let Some(joint) = ties.soft.or(ties.limit) {
         let (own, of) = (&slot.motion, &parent.motion);
         let spin = own.spin - of.spin;
+        let bears = of.velocity + of.spin.cross(own.position - of.center);
+        let slip = own.origin_velocity() - bears;
         // A limit that gives need not be met beforehand.
         let substep = if bone.joint.softness.is_some() {
             0.0
         } else {
             dt / substeps
         };
-        if let Some(rows) = bone.aimed(of.rotation, own.rotation, spin, (dt, substep)) {
+        if let Some(rows) = bone.aimed((of.rotation, own.rotation), spin, slip, (dt, substep)) {
             worlds.aim(link, joint, &rows);
         }
     }
@@ -264,7 +266,7 @@ pub(super) fn drive(
     if slot.strength <= 0.0 {
         let rows = MotorRows {
             damping: Vec3::splat(DRY),
-            most: bone.joint.friction,
+            most: bone.friction(),
             ..default()
         };
         worlds.drive(link, joint, f2, &rows);
@@ -280,7 +282,7 @@ pub(super) fn drive(
         stiffness: bone.carried * (rate * rate),
         damping: bone.carried * (2.0 * config.drive.damping_ratio * rate),
         velocity: aim.inverse() * turn * (config.drive.velocity / dt),
-        most: most.max(bone.joint.friction).min(MOST),
+        most: most.max(bone.friction()).min(MOST),
     };
     worlds.drive(link, joint, aim, &rows);
 }

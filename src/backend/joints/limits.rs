@@ -87,6 +87,8 @@ pub(crate) struct AimedRows {
     pub rotation1: Quat,
     /// Of the second.
     pub rotation2: Quat,
+    /// Metres.
+    pub slides: [Option<[f32; 2]>; 3],
     /// Radians.
     pub cone: Option<f32>,
     /// Radians.
@@ -99,7 +101,8 @@ impl JointWorlds<'_, '_> {
         self.edit(link, joint, |joint| {
             joint.local_frame1.rotation = rows.rotation1;
             joint.local_frame2.rotation = rows.rotation2;
-            for (axis, limits) in TURNS.into_iter().zip(rows.turns) {
+            let axes = SLIDES.into_iter().chain(TURNS);
+            for (axis, limits) in axes.zip(rows.slides.into_iter().chain(rows.turns)) {
                 if let Some(limits) = limits {
                     joint.set_limits(axis, limits);
                 }

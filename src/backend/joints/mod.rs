@@ -17,8 +17,8 @@ use bevy_rapier3d::{
     prelude::{RapierConfiguration, RapierRigidBodyHandle},
     rapier::{
         dynamics::{
-            GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, RigidBodyActivation,
-            RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
+            GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, RigidBody,
+            RigidBodyActivation, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
         },
         math::Pose,
     },
@@ -371,11 +371,19 @@ impl JointWorlds<'_, '_> {
         position: Vec3,
         rotation: Quat,
     ) {
-        if position.is_finite()
-            && rotation.is_finite()
-            && let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0)
-            && let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0)
-        {
+        if !(position.is_finite() && rotation.is_finite()) {
+            return;
+        }
+        let Ok((_, mut bodies, ..)) = self.contexts.get_mut(link.0) else {
+            return;
+        };
+        let there = |pose: &Pose| pose.translation == position && pose.rotation == rotation;
+        let stands = |body: &RigidBody| there(body.position()) && there(body.next_position());
+        // A body that is touched is gone over by the engine, also when nothing was changed.
+        if bodies.bodies.get(handle.0).is_some_and(stands) {
+            return;
+        }
+        if let Some(body) = bodies.bypass_change_detection().bodies.get_mut(handle.0) {
             // The engine takes the velocity from the difference of both as they are written: from the
             // same rotation with the other sign it would be a whole turn.
             let near = if body.rotation().dot(rotation) < 0.0 {
