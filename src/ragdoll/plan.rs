@@ -69,9 +69,9 @@ pub(crate) struct PlannedBone {
     pub carried: Vec3,
 }
 
-/// Friction slows what hangs on a joint by at most this, radians per second squared: above what the joints of
-/// people do, and below what the solver still brings together with their limits in a figure of ten grams.
-const MOST_SLOWING: f32 = 150.0;
+/// Friction slows what hangs on a joint by at most this, radians per second squared: about what that of people
+/// does to a hand. In a figure whose every joint has so much of it, limits and friction tremble.
+const MOST_SLOWING: f32 = 600.0;
 
 /// The indices of a profile's bones with parents before children; bones that hang on none of them, as
 /// in a cycle, are left out.

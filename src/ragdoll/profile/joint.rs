@@ -24,7 +24,7 @@ pub struct JointProfile {
     pub frame: Quat,
     /// Torque with which it resists turning when limp, newton-metres, at least 0: 2 to 5 for people. With
     /// none, limbs swing for a long time and come to rest late; more than slows what hangs on the joint by
-    /// 150 rad/s² counts as that.
+    /// 600 rad/s² counts as that. A figure much lighter than a person needs as much less.
     pub friction: f32,
     /// Most torque that its muscles have, newton-metres, at least 0; infinite is allowed.
     pub max_torque: f32,

@@ -218,6 +218,10 @@ fn a_figure_of_ten_grams_and_one_of_ten_tonnes_fall_and_hold_their_pose() {
                 mass,
             );
             ragdoll.drive.torque = f32::INFINITY;
+            // That of people is for people.
+            for bone in &mut ragdoll.profile.bones {
+                bone.joint.friction *= mass / 75.0;
+            }
             let what = format!("{hz} Hz, {mass} kg");
             let mut sim = Sim::new(hz);
             ground(&mut sim);

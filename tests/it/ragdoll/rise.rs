@@ -191,7 +191,7 @@ fn a_figure_gets_up_on_the_step_or_the_slope_that_it_lies_on() {
     let tilt = 0.15f32;
     let (mut sim, entity, _) = thrown(60.0, Quat::from_rotation_x(1.4), |sim| {
         let turn = Quat::from_rotation_x(tilt);
-        let deck = bevy_rapier3d::prelude::Collider::cuboid(50.0, 0.5, 50.0);
+        let deck = Collider::cuboid(50.0, 0.5, 50.0);
         let at = Transform::from_translation(turn * Vec3::NEG_Y * 0.5).with_rotation(turn);
         sim.fixed(deck, at);
     });
