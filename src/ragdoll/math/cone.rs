@@ -18,6 +18,8 @@ use super::rotation::{angle_between_points, swing_of_point};
 const NARROWEST: f32 = 0.0087;
 /// A half angle above this is taken for this one, radians: 176 degrees.
 const WIDEST: f32 = 3.07;
+/// A circular cone at least as wide as this, radians, is replaced by a narrower one, too.
+const WIDE: f32 = 1.2;
 
 /// An elliptic cone about X, by the tangents of half its half angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,9 +100,18 @@ impl EllipticCone {
     pub fn touching(&self, p: Vec2) -> Cap {
         let (a, b) = (self.semi.x, self.semi.y);
         if self.is_circular() {
+            let half_angle = 2.0 * ops::atan(self.semi.min_element());
+            if half_angle < WIDE {
+                return Cap {
+                    center: Quat::IDENTITY,
+                    half_angle,
+                };
+            }
+            // Half way to the bone: from an axis at a right angle to it, its twist cannot be told.
+            let half = (ops::atan(p.length())).min(0.5 * half_angle);
             return Cap {
-                center: Quat::IDENTITY,
-                half_angle: 2.0 * ops::atan(self.semi.min_element()),
+                center: swing_of_point(p.normalize_or_zero() * ops::tan(0.5 * half)),
+                half_angle: half_angle - half,
             };
         }
         let e = self.nearest(p);
@@ -188,6 +199,8 @@ mod tests {
             (60.0, 50.0),
             (30.0, 100.0),
             (50.0, 50.0),
+            (100.0, 100.0),
+            (75.0, 75.0),
         ] {
             let cone = cone(y, z);
             for i in 0..40 {
@@ -211,6 +224,20 @@ mod tests {
                     assert!(excess < leaves, "{y} {z} at {i}, {turn}: {excess}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn of_a_wide_cone_the_bone_is_never_at_a_right_angle_to_the_axis() {
+        let cone = cone(100.0, 100.0);
+        for degrees in [0.0f32, 20.0, 60.0, 95.0, 100.0, 130.0] {
+            let swing = Quat::from_rotation_z(degrees.to_radians());
+            let cap = cone.touching(swing_point(swing));
+            let off = ops::acos((cap.center * Vec3::X).dot(swing * Vec3::X).clamp(-1.0, 1.0));
+            let within = off - cap.half_angle;
+            let excess = (degrees - 100.0).to_radians();
+            assert!(off.to_degrees() < 85.0, "{degrees}: {}", off.to_degrees());
+            assert!((within - excess).abs() < 2.0e-3, "{degrees}: {within}");
         }
     }
 

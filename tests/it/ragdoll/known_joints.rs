@@ -1,5 +1,5 @@
 //! What joints of other engines are known to get wrong: limits that bounce, drives that know one kind of
-//! joint, and gaps under load.
+//! joint, learned policies without limits, and gaps under load.
 
 use bevy::{math::Vec2, prelude::*};
 use bevy_embody::prelude::*;
@@ -156,6 +156,73 @@ fn a_drive_knows_every_kind_of_joint_in_one_figure() {
             let speed = worst(&sim, entity, |o| o.spin.length());
             findings.at_most(format!("{hz} Hz, {kind:?}: spin, rad/s"), speed, 0.05);
         }
+    }
+}
+
+/// The figure that motions are learned with, 45 kg and 1.62 m: a tree of balls, knees and elbows hinges.
+fn learner() -> Ragdoll {
+    let mut profile = RagdollProfile::humanoid(HumanoidDetail::Bodies15, 1.62);
+    let shares = [
+        ("pelvis", 6.0, 0.0),
+        ("chest", 14.0, 200.0),
+        ("head", 2.0, 50.0),
+        ("thigh", 4.5, 200.0),
+        ("shin", 3.0, 150.0),
+        ("foot", 1.0, 90.0),
+        ("upper_arm", 1.5, 100.0),
+        ("forearm", 1.0, 60.0),
+        ("hand", 0.5, 10.0),
+    ];
+    for bone in &mut profile.bones {
+        let of = shares.iter().find(|(name, ..)| bone.name.starts_with(name));
+        if let Some((_, share, torque)) = of {
+            bone.mass.share = *share;
+            bone.joint.max_torque = *torque;
+        }
+    }
+    Ragdoll::new(profile, 45.0)
+}
+
+#[test]
+fn a_policy_thirty_times_a_second_gets_no_joint_beyond_its_limits() {
+    let mut findings = Findings::new();
+    // As learners run it: several ticks of physics for each step of the policy.
+    for hz in [240.0] {
+        let mut sim = Sim::new(hz);
+        ground(&mut sim);
+        let ragdoll = learner();
+        let profile = ragdoll.profile.clone();
+        let mode = RagdollMode::Powered;
+        let entity = figure(&mut sim, ragdoll, mode, Vec3::Y * 0.05);
+        sim.ticks(2);
+        let mut dice = Dice::new(17);
+        let (mut off, mut gap) = (0.0f32, 0.0f32);
+        let (every, steps) = ((hz / 30.0) as usize, 15);
+        let mut from = RagdollPose::from_turns(&profile, []);
+        let mut to = from.clone();
+        for tick in 0..(hz * 8.0) as usize {
+            let (step, at_step) = (tick / every, tick % every == 0);
+            if at_step && step % steps == 0 {
+                // From anywhere to anywhere within the limits, each half a second.
+                from = core::mem::replace(&mut to, random_pose(&profile, &mut dice, 1.0));
+            }
+            if at_step {
+                let part = (step % steps + 1) as f32 / steps as f32;
+                let both = from.bones.iter().zip(&to.bones);
+                let bones = both.map(|(a, b)| BonePose {
+                    position: a.position.lerp(b.position, part),
+                    rotation: a.rotation.slerp(b.rotation, part),
+                });
+                let bones = bones.collect();
+                insert(&mut sim, entity, RagdollPose { bones });
+            }
+            sim.ticks(1);
+            off = off.max(worst(&sim, entity, |o| o.violation.to_degrees()));
+            gap = gap.max(worst(&sim, entity, |o| o.gap));
+        }
+        findings.at_most(format!("{hz} Hz: violation, degrees"), off, 5.0);
+        findings.at_most(format!("{hz} Hz: gap, m"), gap, 0.015);
+        findings.holds(format!("{hz} Hz: finite"), finite(&sim, entity));
     }
 }
 
