@@ -106,16 +106,11 @@ pub(super) fn observe(
         }
         motions.clear();
         motions.resize(count, None);
-<<<<<<< HEAD
         handles.clear();
         handles.resize(count, None);
         for (bone, link, handle, ..) in bones.iter_many(tied.iter()) {
-            if let Some(motion) = motions.get_mut(bone.order) {
-=======
-        for (bone, link, handle, _) in bones.iter_many(tied.iter()) {
             // Of two, the first is driven.
             if let Some(motion @ None) = motions.get_mut(bone.order) {
->>>>>>> de5f2a3 (Ragdolls: twist of wide cones and of fast limbs holds, the cone is that of the middle of the tick, sliding joints are met beforehand, friction is no more than a light limb can stand, heavy loads get substeps, hit boxes that stand cost nothing, a bone of another figure is left alone; what ragdolls are known to get wrong, and odd circumstances, as tests)
                 *motion = worlds.motion(link, handle);
                 handles[bone.order] = Some((*link, *handle));
             }
