@@ -21,6 +21,7 @@
 mod bodies;
 mod dense;
 mod normal;
+mod relaxation;
 mod spin;
 mod tires;
 

@@ -2,18 +2,21 @@
 //!
 //! A wheel's slip velocity would be `s` without its tyre; an impulse `λ` takes `G λ` off it. The
 //! carcass, a spring of stiffness `k` stretched by `u`, takes up the rest of the slip that the patch
-//! does not: `λ = k dt (u + dt (s − G λ − s_p))`. The patch slips by `s_p` under the force `λ / dt`. With
-//! the secant `c` of its curve, `s_p = c λ / dt`, and
+//! does not: `u' = s − G λ − s_p`, and gives the force `k u` that it ends the tick with. The patch slips by
+//! `s_p` under that force. With the secant `c` of its curve, `s_p = c k u`, a linear filter, whose exact
+//! answer to a slip that is constant over the tick ([`super::relaxation`]) is
 //!
-//! `λ = (u / dt + s) / (1 / (k dt²) + G + c / dt)`,
+//! `λ = (b u / dt + s) / (a / (k dt²) + G)`, `a = h / (1 − e^{−h})`, `b = a − h`, `h = dt k c`,
 //!
-//! one division for any stiffness. At a standstill `c` is 0 below the friction limit: the carcass
-//! alone holds. The combined slip that `c` belongs to is found by one Newton step in each sweep.
+//! one division for any stiffness. It gives away as much energy as it is given, or more, for any `c`, even
+//! one that changes from tick to tick: `v₁² + k u₁² / m ≤ v₀² + k u² / m`. At a standstill `c` is 0 below
+//! the friction limit: `a` and `b` are 1, and the carcass alone holds. In a steady slide `s − G λ = s_p`
+//! whatever `h`. The combined slip that `c` belongs to is found by one Newton step in each sweep.
 
 use bevy::math::Vec2;
 
-use super::{Contact, Problem};
-use crate::vehicle::tire::Patch;
+use super::{Contact, Problem, relaxation::Relaxation};
+use crate::vehicle::tire::{Patch, Secant};
 
 /// Applies what the tyres begin with.
 pub(super) fn start(problem: &mut Problem) {
@@ -93,38 +96,52 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     ) + contact.turn_slip;
     let turned = problem.spin.mobility(contact.wheel) as f32 * contact.radius * contact.radius;
     let mobility = contact.mobility + Vec2::new(turned, 0.0);
-    // What the slip would be without this tyre's impulse, the stretch of the carcass included.
-    let drive = contact.bristle / dt + slip + mobility * contact.grip;
-    let stiff = mobility + (patch.carcass * (dt * dt)).recip();
+    // What the slip would be without this tyre's impulse, without and with the stretch of the carcass.
+    let free = slip + mobility * contact.grip;
+    let stretch = contact.bristle / dt;
+    let drive = stretch + free;
+    let spring = (patch.carcass * (dt * dt)).recip();
+    let answer = |secant: &Secant| {
+        let filter = Relaxation::new(patch.carcass * secant.compliance * dt);
+        let grip = (filter.b * stretch + free) / (filter.a * spring + mobility);
+        (filter, grip)
+    };
 
     let mut combined = contact.combined;
     let mut secant = patch.secant(combined, contact.speed);
-    let mut grip = drive / (stiff + secant.compliance / dt);
+    let (mut filter, mut grip) = answer(&secant);
     let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
     if (grip / limit).length() > 1.0 + 1.0e-4 {
         // A full slide: what the carcass alone would hold beyond the limit is slip. From far below,
         // Newton's steps would be small.
-        let held = (drive / stiff / limit).length().max(1.0);
+        let held = (drive / (mobility + spring) / limit).length().max(1.0);
         let slide = patch.combined(drive * (1.0 - 1.0 / held), contact.speed);
         if combined < 0.5 * slide {
             combined = slide;
             secant = patch.secant(combined, contact.speed);
-            grip = drive / (stiff + secant.compliance / dt);
+            (filter, grip) = answer(&secant);
         }
     }
-    // One step of Newton's towards the combined slip that belongs to this impulse.
+    // One step of Newton's towards the combined slip `ρ` that belongs to this impulse: with the force
+    // `F(ρ)` it solves `ρ + F (b / (k dt) + G dt) = b u / dt + s`.
     let mut next = combined;
     let mut open = 0.0;
     let weight = grip.length_squared();
     if weight > 0.0 {
         let reached = patch.combined(grip * secant.compliance / dt, contact.speed);
-        let stiffness = (grip * grip).dot(stiff) / weight * dt;
-        let compliance = (grip * grip).dot(secant.compliance) / weight;
+        let part = grip * grip / weight;
+        let stiffness = part.dot(mobility + filter.b * spring) * dt;
+        let compliance = part.dot(secant.compliance);
         if compliance > 0.0 {
-            let slope = (1.0 + stiffness * secant.slope).max(0.3);
+            // `b` falls while `ρ` grows, by as much as the curve bends.
+            let before = (contact.bristle * patch.carcass).dot(grip) * dt / weight;
+            let bent = (1.0 - compliance * secant.slope).clamp(0.0, 1.0);
+            let falls = part.dot(filter.falls) * bent * (1.0 - before).clamp(-1.0, 1.0);
+            let slope = (1.0 + stiffness * secant.slope - falls).max(0.3);
             next = combined + (reached - combined) * (1.0 + stiffness / compliance) / slope;
             // No `clamp`: that panics where its limits are no numbers.
-            next = next.min(patch.combined(drive, contact.speed)).max(0.0);
+            let most = patch.combined(drive.abs().max(free.abs()), contact.speed);
+            next = next.min(most).max(0.0);
             open = (next - combined).abs() * secant.slope.abs() * dt;
         }
     }
