@@ -45,15 +45,20 @@ pub(super) fn sweep(problem: &mut Problem) -> f32 {
         let (wheel, radius) = (contact.wheel, contact.radius);
         let before = contact.grip;
         let load = contact.push / dt;
+        let (tire, surface) = (contact.tire, contact.surface);
         let mut grip = Vec2::ZERO;
         if load > 0.0 {
             let patch = match contact.patch {
-                Some(patch) if (patch.load - load).abs() <= 1.0e-5 * load => patch,
-                _ => Patch::new(contact.tire, load, contact.surface),
+                Some(patch) if (patch.load - load).abs() <= SAME * load => patch,
+                _ => {
+                    problem.contacts[i].answer = None;
+                    Patch::new(tire, load, surface)
+                }
             };
             let step = step(problem, i, &patch);
             let contact = &mut problem.contacts[i];
             contact.patch = Some(patch);
+            contact.answer = Some(step.answer);
             contact.combined = step.next;
             let scale = dt * patch.limit.max_element() + 1.0e-6;
             let moved = (step.grip - before).abs().max_element();
@@ -75,8 +80,31 @@ pub(super) fn sweep(problem: &mut Problem) -> f32 {
     change
 }
 
+/// Loads and slips that differ by less than this part count as one: far below what ends the sweeps.
+const SAME: f32 = 1.0e-5;
+
+/// What patch and carcass answer near one combined slip.
+#[derive(Clone, Copy)]
+pub(crate) struct Answer {
+    combined: f32,
+    secant: Secant,
+    filter: Relaxation,
+}
+
+impl Answer {
+    fn new(patch: &Patch, combined: f32, contact: &Contact, dt: f32) -> Self {
+        let secant = patch.secant(combined, contact.speed);
+        Self {
+            combined,
+            secant,
+            filter: Relaxation::new(patch.carcass * secant.compliance * dt),
+        }
+    }
+}
+
 /// What one step finds.
 struct Step {
+    answer: Answer,
     /// Newton-seconds.
     grip: Vec2,
     /// Combined slip velocity to go on with, metres per second.
@@ -101,15 +129,16 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     let stretch = contact.bristle / dt;
     let drive = stretch + free;
     let spring = (patch.carcass * (dt * dt)).recip();
-    let answer = |secant: &Secant| {
-        let filter = Relaxation::new(patch.carcass * secant.compliance * dt);
-        let grip = (filter.b * stretch + free) / (filter.a * spring + mobility);
-        (filter, grip)
+    let gripped = |Answer { filter, .. }: &Answer| {
+        (filter.b * stretch + free) / (filter.a * spring + mobility)
     };
 
     let mut combined = contact.combined;
-    let mut secant = patch.secant(combined, contact.speed);
-    let (mut filter, mut grip) = answer(&secant);
+    let mut answer = match contact.answer {
+        Some(answer) if (answer.combined - combined).abs() <= SAME * combined => answer,
+        _ => Answer::new(patch, combined, contact, dt),
+    };
+    let mut grip = gripped(&answer);
     let limit = (patch.limit * dt).max(Vec2::splat(1.0e-9));
     if (grip / limit).length() > 1.0 + 1.0e-4 {
         // A full slide: what the carcass alone would hold beyond the limit is slip. From far below,
@@ -118,10 +147,11 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
         let slide = patch.combined(drive * (1.0 - 1.0 / held), contact.speed);
         if combined < 0.5 * slide {
             combined = slide;
-            secant = patch.secant(combined, contact.speed);
-            (filter, grip) = answer(&secant);
+            answer = Answer::new(patch, combined, contact, dt);
+            grip = gripped(&answer);
         }
     }
+    let Answer { secant, filter, .. } = &answer;
     // One step of Newton's towards the combined slip `ρ` that belongs to this impulse: with the force
     // `F(ρ)` it solves `ρ + F (b / (k dt) + G dt) = b u / dt + s`.
     let mut next = combined;
@@ -150,5 +180,10 @@ fn step(problem: &Problem, i: usize, patch: &Patch) -> Step {
     if excess > 1.0 {
         grip /= excess;
     }
-    Step { grip, next, open }
+    Step {
+        answer,
+        grip,
+        next,
+        open,
+    }
 }

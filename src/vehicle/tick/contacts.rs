@@ -221,6 +221,7 @@ pub(super) fn build<'a>(
             combined: if same_ground { last.slip } else { 0.0 },
             speed,
             patch: None,
+            answer: None,
         });
     }
     report.ground_spin = ground_spin / standing.max(1.0);
