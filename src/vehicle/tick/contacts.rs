@@ -83,7 +83,9 @@ pub(super) fn build<'a>(
         let ground_start = ground_at(touch.point);
         let ground_end = match motion {
             // What spins like this shows the wheel another side of itself by then.
-            GroundMotion::Free { rigid, .. } if rigid.spin.length() * s.dt > SPINNING => ground_start,
+            GroundMotion::Free { rigid, .. } if rigid.spin.length() * s.dt > SPINNING => {
+                ground_start
+            }
             _ => ground_at(touch.point + own_velocity * s.dt),
         };
         // The step moves a body a little more by its last velocity than by its first: on a circle

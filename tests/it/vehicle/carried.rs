@@ -337,3 +337,42 @@ fn a_light_plate_on_a_moving_floor_carries_its_wheel() {
         }
     }
 }
+
+#[test]
+fn a_braked_car_keeps_its_place_on_a_bed_that_goes_round_a_bend() {
+    // Half of the bend's acceleration times the square of the tick, in each tick, would be half a metre at 30 Hz.
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (radius, speed) in [(20.0f32, 8.0f32), (6.0, 4.0)] {
+            let mut sim = Sim::new(hz);
+            let at = move |t: f64| {
+                let rotation = Quat::from_rotation_y(t as f32 * speed / radius);
+                Transform::from_translation(rotation * Vec3::new(radius, -0.5, 0.0))
+                    .with_rotation(rotation)
+            };
+            let mover = sim.moving(at);
+            let bed = sim.spawn((
+                RigidBody::KinematicPositionBased,
+                Collider::cuboid(1.5, 0.5, 4.0),
+                at(0.0),
+                mover,
+            ));
+            let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(radius, HEIGHT, 0.0));
+            let along = Velocity {
+                linear: Vec3::NEG_Z * speed,
+                angular: Vec3::Y * (speed / radius),
+            };
+            insert(&mut sim, car.body, along);
+            car.ask(&mut sim, |i| i.brake = 1.0);
+            let place = |sim: &Sim| {
+                let bed = sim.get::<Transform>(bed);
+                bed.rotation.inverse() * (sim.position(car.body) - bed.translation)
+            };
+            sim.seconds(3.0);
+            let start = place(&sim);
+            sim.seconds(10.0);
+            let moved = (place(&sim) - start).length();
+            found.at_most(format!("{hz} Hz {radius} m"), moved, 0.02);
+        }
+    }
+}
