@@ -10,7 +10,7 @@
 //! alone, at once. The steady `u = dt s / h` is exact for every `h`. As `b ≤ 1` and `a − b = h ≥ 0`, a mass
 //! on it never gains energy.
 
-use bevy::math::{Vec2, ops};
+use bevy::math::Vec2;
 
 /// The weights of one tick, along and across.
 #[derive(Clone, Copy, Debug)]
@@ -24,30 +24,37 @@ pub(super) struct Relaxation {
 impl Relaxation {
     /// `h` is the tick in parts of the time in which the force builds up, at least 0.
     pub fn new(h: Vec2) -> Self {
-        let b = Vec2::new(weight(h.x), weight(h.y));
+        // From nothing, where all is 0 / 0, to where `b` is nothing in single precision.
+        let held = h.clamp(Vec2::splat(1.0e-6), Vec2::splat(24.0));
+        let inverse = growth(held).recip();
+        let b = (held * inverse).min(Vec2::ONE);
         let a = b + h;
         Self {
             a,
             b,
-            falls: b * (a - 1.0).max(Vec2::ZERO) / h.max(Vec2::splat(1.0e-6)),
+            falls: (a - 1.0).max(Vec2::ZERO) * inverse,
         }
     }
 }
 
-/// `h / (e^h − 1)`.
-fn weight(h: f32) -> f32 {
-    // By its series where the quotient has few digits; beyond 80 it is 0 in single precision.
-    if h < 1.0e-2 {
-        1.0 - h * (0.5 - h / 12.0)
-    } else {
-        let h = h.min(80.0);
-        h / ops::exp_m1(h)
+/// `e^h − 1` of both axes at once, for `h` up to 24: that of `h / 8` by the continued fraction of the
+/// hyperbolic tangent, doubled three times. Within 1e-6 of itself up to 10, where `b` is 5e-4.
+fn growth(h: Vec2) -> Vec2 {
+    let x = h * (1.0 / 16.0);
+    let y = x * x;
+    let top = x * (y * (y + 105.0) + 945.0);
+    let bottom = y * (y * 15.0 + 420.0) + 945.0;
+    let mut grown = top * 2.0 / (bottom - top);
+    for _ in 0..3 {
+        grown *= grown + 2.0;
     }
+    grown
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy::math::ops;
 
     #[test]
     fn a_step_is_the_filters_own_however_long() {
@@ -97,6 +104,7 @@ mod tests {
     fn the_fall_of_the_weight_is_its_slope() {
         for h in [0.02f32, 0.3, 1.0, 4.0] {
             let filter = Relaxation::new(Vec2::splat(h));
+            let weight = |h: f32| Relaxation::new(Vec2::splat(h)).b.x;
             let slope = (weight(h + 1.0e-2) - weight(h - 1.0e-2)) / 2.0e-2;
             assert!(
                 (filter.falls.x + slope).abs() < 2.0e-3,
