@@ -71,7 +71,7 @@ mod tests {
             } else {
                 1.0
             };
-            let exact = 0.3 * (-wide).exp() + 0.7 * share;
+            let exact = 0.3 * (1.0 + (-wide).exp_m1()) + 0.7 * share;
             assert!((now - exact).abs() < 1.0e-6, "{h}: {now} for {exact}");
         }
     }
