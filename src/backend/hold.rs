@@ -24,8 +24,12 @@ const MARGIN: f32 = 0.02;
 pub(crate) enum Hold {
     /// Nothing but its own inertia.
     Free,
-    /// A floor on all sides of the push, with this normal. It may slide there, and turn about the normal.
-    Floor(Vec3),
+    /// A floor on all sides of the push. It may slide there, and turn about the normal.
+    Floor {
+        normal: Vec3,
+        /// Of the floor, metres per second.
+        velocity: Vec3,
+    },
     /// Joints to other bodies.
     Joints,
 }
@@ -43,14 +47,15 @@ impl PhysicsView<'_> {
         let (side, front) = up.any_orthonormal_pair();
         let flat = |arm: Vec3| Vec2::new(arm.dot(side), arm.dot(front));
         let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-        let mut normal = Vec3::ZERO;
-        self.for_contacts(body, own, |manifold, is_first| {
+        let (mut normal, mut velocity) = (Vec3::ZERO, Vec3::ZERO);
+        self.for_contacts(body, own, |manifold, is_first, floor| {
             // It points from the first to the second.
             let inward = manifold.data.normal * if is_first { -1.0 } else { 1.0 };
             if inward.dot(up) < AGAINST || manifold.data.solver_contacts.is_empty() {
                 return;
             }
             normal += inward;
+            velocity = floor.map_or(Vec3::ZERO, |floor| floor.velocity_at_point(point));
             for point in &manifold.points {
                 let data = &point.data;
                 let arm = flat(if is_first {
@@ -65,7 +70,7 @@ impl PhysicsView<'_> {
         let at = flat(point - body.center_of_mass());
         let held = at.cmpge(low - MARGIN).all() && at.cmple(high + MARGIN).all();
         if held && let Some(normal) = normal.try_normalize() {
-            return Hold::Floor(normal);
+            return Hold::Floor { normal, velocity };
         }
         let impulse = &self.joints.impulse_joints;
         let multibody = &self.joints.multibody_joints;
@@ -74,12 +79,12 @@ impl PhysicsView<'_> {
         if joined { Hold::Joints } else { Hold::Free }
     }
 
-    /// Hands out the contacts of a body with others, and whether it is the first of the two.
+    /// Hands out the contacts of a body with others, whether it is the first of the two, and the other.
     fn for_contacts(
         &self,
         body: &RigidBody,
         own: &RapierRigidBodyHandle,
-        mut take: impl FnMut(&ContactManifold, bool),
+        mut take: impl FnMut(&ContactManifold, bool, Option<&RigidBody>),
     ) {
         for &collider in body.colliders() {
             for pair in self.simulation.narrow_phase.contact_pairs_with(collider) {
@@ -90,11 +95,13 @@ impl PhysicsView<'_> {
                     pair.collider1
                 };
                 let other = self.colliders.colliders.get(other);
-                if other.and_then(Collider::parent) == Some(own.0) {
+                let other = other.and_then(Collider::parent);
+                if other == Some(own.0) {
                     continue;
                 }
+                let other = other.and_then(|other| self.bodies.bodies.get(other));
                 for manifold in pair.solver_manifolds() {
-                    take(manifold, is_first);
+                    take(manifold, is_first, other);
                 }
             }
         }

@@ -169,9 +169,11 @@ impl PhysicsView<'_> {
         } else {
             turn.to_scaled_axis() / dt
         };
-        // A point on a turning body moves on an arc: its mean velocity is the one half way.
+        // A point on a turning body moves on an arc: its mean velocity is the one half way, half a turn of
+        // the tick after that of the start.
+        let mean = (end.translation - start.translation) / dt;
         Some(GroundMotion::Driven {
-            velocity: (end.translation - start.translation) / dt,
+            velocity: Quat::from_scaled_axis(spin * (-0.5 * dt)) * mean,
             spin,
             center: start.translation,
         })

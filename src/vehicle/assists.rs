@@ -153,9 +153,13 @@ impl TractionControl {
         let excess = ((slip - self.slip) / self.slip).max(-1.0);
         let rate = if excess > 0.0 { 15.0 } else { 4.0 };
         let slowed = load.held - load.slowing * self.slip * excess.max(0.0);
-        let least = slowed.max(load.needed).clamp(0.02, 1.0);
+        let least = slowed.max(load.needed * Self::CLIMBS).clamp(0.02, 1.0);
         (last - (excess.min(2.0) * rate * dt).clamp(-0.5, 0.5)).clamp(least, 1.0)
     }
+
+    /// How much more is left than keeps the vehicle where it is on a hill. With no more than that a wheel
+    /// that grips again gains nothing until the throttle is back, and one that spins goes on pushing.
+    const CLIMBS: f32 = 1.1;
 
     /// In which wheels that spin are slowed down, seconds: some ticks of the slowest game.
     pub(crate) const TIME: f32 = 0.15;

@@ -21,6 +21,7 @@
 mod bodies;
 mod dense;
 mod normal;
+mod relaxation;
 mod spin;
 mod tires;
 
@@ -28,6 +29,7 @@ use bevy::prelude::*;
 
 pub(crate) use bodies::{Chassis, GroundBody};
 pub(crate) use spin::{Row, Spin};
+pub(crate) use tires::Answer;
 
 use super::{suspension::Law, tire::Patch};
 
@@ -87,6 +89,7 @@ pub(crate) struct Contact<'a> {
     /// Speed that the slip is measured against, metres per second.
     pub speed: f32,
     pub patch: Option<Patch<'a>>,
+    pub answer: Option<Answer>,
 }
 
 /// A vehicle in one tick.

@@ -29,8 +29,12 @@ const LIGHTEST: f32 = 8.0;
 /// on it stays within the friction of the floor.
 const FLAT: f32 = 0.97;
 
-/// Faster than this a loose body leaves the floor that it lies on, metres per second.
+/// Faster than this against the floor that it lies on, a loose body leaves it, or is not held by its
+/// friction, metres per second.
 const LEAVING: f32 = 1.0;
+
+/// A loose body that turns by more than this in a tick is not followed on its way round, radians.
+const SPINNING: f32 = 0.3;
 
 /// A spring that lies flatter on the ground counts as one at this cosine.
 const LEAST_COSINE: f32 = 0.05;
@@ -77,7 +81,13 @@ pub(super) fn build<'a>(
         let arm = touch.point - rigid.center;
         let own_velocity = rigid.velocity + rigid.spin.cross(arm);
         let ground_start = ground_at(touch.point);
-        let ground_end = ground_at(touch.point + own_velocity * s.dt);
+        let ground_end = match motion {
+            // What spins like this shows the wheel another side of itself by then.
+            GroundMotion::Free { rigid, .. } if rigid.spin.length() * s.dt > SPINNING => {
+                ground_start
+            }
+            _ => ground_at(touch.point + own_velocity * s.dt),
+        };
         // The step moves a body a little more by its last velocity than by its first: on a circle
         // that would lead inward.
         let ground_drift = (ground_start - ground_end) * (s.view.end_share() - 0.5);
@@ -99,10 +109,22 @@ pub(super) fn build<'a>(
                     let hold = match s.view.hold(body, s.handle, touch.normal, touch.point) {
                         // What leaves its floor, as a stone that was squeezed out, is not held by it:
                         // it would meet the wheel like a rock that comes up.
-                        Hold::Floor(floor) if ground_start.dot(floor) > LEAVING => Hold::Free,
+                        Hold::Floor { normal, velocity }
+                            if (ground_start - velocity).dot(normal) > LEAVING =>
+                        {
+                            Hold::Free
+                        }
                         hold => hold,
                     };
-                    grounds.push(ground_body(body, &rigid, hold, touch.normal, own_mass));
+                    let mut loose = ground_body(body, &rigid, hold, touch.normal, own_mass);
+                    // Nor does friction hold one that shoots along its floor: with but its own mass behind
+                    // it, such a wedge can lift no car.
+                    if let Hold::Floor { velocity, .. } = hold
+                        && (ground_start - velocity).length() > LEAVING
+                    {
+                        loose.flat_on = None;
+                    }
+                    grounds.push(loose);
                     grounds.len() - 1
                 });
                 let arm = touch.point - rigid.center;
@@ -201,6 +223,7 @@ pub(super) fn build<'a>(
             combined: if same_ground { last.slip } else { 0.0 },
             speed,
             patch: None,
+            answer: None,
         });
     }
     report.ground_spin = ground_spin / standing.max(1.0);
@@ -237,7 +260,7 @@ fn ground_body(
     let inverse_inertia = rigid.inverse_inertia;
     let (inverse_mass, inverse_inertia) = match hold {
         Hold::Free => (inverse_mass, inverse_inertia),
-        Hold::Floor(floor) => {
+        Hold::Floor { normal: floor, .. } => {
             let along = Mat3::from_cols(floor * floor.x, floor * floor.y, floor * floor.z);
             let across = Mat3::IDENTITY - along;
             let turn = floor.dot(inverse_inertia * floor);
@@ -256,12 +279,12 @@ fn ground_body(
         // A loose one that is lighter than the vehicle would be shot away.
         withstands: match hold {
             Hold::Joints => 1.0,
-            Hold::Free | Hold::Floor(_) => (rigid.mass / own_mass).min(1.0),
+            Hold::Free | Hold::Floor { .. } => (rigid.mass / own_mass).min(1.0),
         },
         inverse_mass,
         inverse_inertia,
         flat_on: match hold {
-            Hold::Floor(floor) if floor.dot(normal) > FLAT => Some(floor),
+            Hold::Floor { normal: floor, .. } if floor.dot(normal) > FLAT => Some(floor),
             _ => None,
         },
         pushed: Vec3::ZERO,

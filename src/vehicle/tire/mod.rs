@@ -17,5 +17,5 @@ mod combined;
 mod config;
 mod curve;
 
-pub(crate) use combined::Patch;
+pub(crate) use combined::{Patch, Secant};
 pub use config::{SlipPoint, Tire, TireModel};

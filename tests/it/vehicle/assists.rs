@@ -89,8 +89,8 @@ fn climb(
 }
 
 /// Every car with traction control and its foot down, beside the best driver: who gives as much throttle
-/// as climbs farthest. At least two fifths of that way, on hills that can be climbed at every tick rate; tells
-/// how many.
+/// as climbs farthest. At least seven tenths of that way, on hills that can be climbed at every tick rate;
+/// tells how many.
 fn climbs_beside_the_best(found: &mut Findings, gear: Gear) -> usize {
     let mut climbed = 0;
     for (name, preset) in [
@@ -112,8 +112,7 @@ fn climbs_beside_the_best(found: &mut Findings, gear: Gear) -> usize {
             for (hz, best) in best {
                 let helped = go(hz, 1.0, Some(TractionControl::default()));
                 let case = format!("{hz} Hz {name} on {angle}°, {best} m by the best foot");
-                // Most come as far as the best; the least, 45 %, has the suv on 30° at 30 Hz.
-                found.at_least(case, helped, 0.4 * best);
+                found.at_least(case, helped, 0.7 * best);
             }
         }
     }
@@ -121,7 +120,7 @@ fn climbs_beside_the_best(found: &mut Findings, gear: Gear) -> usize {
 }
 
 #[test]
-fn with_traction_control_a_foot_that_is_down_climbs_hills_two_fifths_as_far_as_the_best() {
+fn with_traction_control_a_foot_that_is_down_climbs_hills_seven_tenths_as_far_as_the_best() {
     let mut found = Findings::new();
     let climbed = climbs_beside_the_best(&mut found, Gear::Drive);
     // All of 10°, all but the front-wheel drive of 20°, the four-wheel drive of 30°.

@@ -286,3 +286,93 @@ fn a_body_with_locked_axes_is_solved_as_one() {
         found.at_most(format!("{hz} Hz across: loads shake"), worst, 10.0);
     }
 }
+
+#[test]
+fn a_light_plate_on_a_moving_floor_carries_its_wheel() {
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (name, velocity) in [
+            ("lift", Vec3::Y * 2.0),
+            ("sinking lift", Vec3::Y * -2.0),
+            ("ferry", Vec3::X * 5.0),
+        ] {
+            let mut sim = Sim::new(hz);
+            let moves = || Velocity {
+                linear: velocity,
+                angular: Vec3::ZERO,
+            };
+            let floor = sim.spawn((
+                RigidBody::KinematicVelocityBased,
+                Collider::cuboid(20.0, 0.5, 20.0),
+                moves(),
+                Transform::from_xyz(0.0, -0.5, 0.0),
+            ));
+            let plate = sim.dynamic(
+                Collider::cuboid(0.25, 0.025, 0.25),
+                Transform::from_xyz(-HALF_TRACK, 0.026, -HALF_BASE),
+                5.0,
+            );
+            let car =
+                Plan::reference().spawn(&mut sim, Transform::from_xyz(0.0, HEIGHT + 0.05, 0.0));
+            insert(&mut sim, plate, moves());
+            insert(&mut sim, car.body, moves());
+            car.ask(&mut sim, |i| i.brake = 1.0);
+            sim.seconds(3.0);
+            let (mut low, mut high) = (f32::MAX, f32::MIN);
+            let (mut light, mut heavy) = (f32::MAX, f32::MIN);
+            for _ in 0..(3.0 * hz) as usize {
+                sim.ticks(1);
+                let height = sim.position(car.body).y - sim.position(floor).y - 0.5;
+                (low, high) = (low.min(height), high.max(height));
+                let load: f32 = car.loads(&sim).iter().sum();
+                (light, heavy) = (light.min(load), heavy.max(load));
+            }
+            let case = format!("{hz} Hz {name}");
+            let contact = car.wheel(&sim, 0).contact.map(|c| c.entity);
+            found.holds(format!("{case}: on the plate"), contact == Some(plate));
+            found.at_least(format!("{case}: lowest"), low, HEIGHT - 0.02);
+            found.at_most(format!("{case}: highest"), high, HEIGHT + 0.05);
+            found.within(format!("{case}: least load"), light, MASS * G, 0.002);
+            found.within(format!("{case}: most load"), heavy, MASS * G, 0.002);
+        }
+    }
+}
+
+#[test]
+fn a_braked_car_keeps_its_place_on_a_bed_that_goes_round_a_bend() {
+    // Half of the bend's acceleration times the square of the tick, in each tick, would be half a metre at 30 Hz.
+    let mut found = Findings::new();
+    for hz in RATES {
+        for (radius, speed) in [(20.0f32, 8.0f32), (6.0, 4.0)] {
+            let mut sim = Sim::new(hz);
+            let at = move |t: f64| {
+                let rotation = Quat::from_rotation_y(t as f32 * speed / radius);
+                Transform::from_translation(rotation * Vec3::new(radius, -0.5, 0.0))
+                    .with_rotation(rotation)
+            };
+            let mover = sim.moving(at);
+            let bed = sim.spawn((
+                RigidBody::KinematicPositionBased,
+                Collider::cuboid(1.5, 0.5, 4.0),
+                at(0.0),
+                mover,
+            ));
+            let car = Plan::reference().spawn(&mut sim, Transform::from_xyz(radius, HEIGHT, 0.0));
+            let along = Velocity {
+                linear: Vec3::NEG_Z * speed,
+                angular: Vec3::Y * (speed / radius),
+            };
+            insert(&mut sim, car.body, along);
+            car.ask(&mut sim, |i| i.brake = 1.0);
+            let place = |sim: &Sim| {
+                let bed = sim.get::<Transform>(bed);
+                bed.rotation.inverse() * (sim.position(car.body) - bed.translation)
+            };
+            sim.seconds(3.0);
+            let start = place(&sim);
+            sim.seconds(10.0);
+            let moved = (place(&sim) - start).length();
+            found.at_most(format!("{hz} Hz {radius} m"), moved, 0.02);
+        }
+    }
+}

@@ -19,6 +19,7 @@ mod odd;
 mod places;
 mod presets;
 mod refusals;
+mod relaxation;
 mod resistance;
 mod robust;
 mod saving;

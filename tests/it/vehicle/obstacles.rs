@@ -215,6 +215,25 @@ fn no_heap_of_stones_half_as_high_as_a_wheel_throws_a_car() {
 }
 
 #[test]
+fn no_heap_of_stones_as_high_as_a_hub_turns_a_car_over() {
+    // Some of them spin under the wheels like balls out of a machine.
+    let mut found = Findings::new();
+    for hz in [30.0, 60.0, 120.0] {
+        for probe in [WheelProbe::Ray, WheelProbe::Cylinder] {
+            for seed in 0..20 {
+                let over = over_rubble(hz, probe, seed * 1000 + 7, 0.3);
+                let case = format!("{hz} Hz {probe:?} heap {seed}");
+                found.at_most(format!("{case}: over"), over.end.translation.z, -16.0);
+                // A stone on another one.
+                found.at_most(format!("{case}: highest"), over.highest, HEIGHT + 0.6);
+                // It would tip over at 55.5°.
+                found.at_least(format!("{case}: tilt"), over.tilt, cos(45.0));
+            }
+        }
+    }
+}
+
+#[test]
 fn a_loose_step_of_five_centimetres_is_crossed() {
     let mut found = Findings::new();
     for hz in RATES {

@@ -96,14 +96,6 @@ const fn slow(case: Case) -> Case {
     Case { slow: true, ..case }
 }
 
-/// One whose error is known and still to be mended: shown, not judged.
-const fn open(case: Case) -> Case {
-    Case {
-        bound: f64::INFINITY,
-        ..case
-    }
-}
-
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
