@@ -59,7 +59,9 @@ pub struct Ragdoll {
     /// second, above 0. Pressed against a wall with much more than 10 it trembles.
     pub keyframe_speed: f32,
     /// How often the solver goes over the joints in each substep, at least 1. It is a setting of the
-    /// whole physics world, where the largest that is asked for counts.
+    /// whole physics world, where the largest that is asked for counts. 4 is enough for one figure and for
+    /// limp ones in piles; powered ones that lie on each other have half the gaps in their joints with 8, and
+    /// come to rest.
     pub iterations: u8,
     /// With whom its bones collide.
     pub groups: BoneGroups,

@@ -172,7 +172,12 @@ fn bent(profile: &RagdollProfile) -> RagdollPose {
 }
 
 fn piles(sim: &mut Sim, side: Side, count: u32, mode: RagdollMode) {
-    pile_up(sim, side, count, mode, &ragdoll());
+    let mut ragdoll = ragdoll();
+    if mode == RagdollMode::Powered {
+        // Muscles at odds with what lies on them take more turns to solve.
+        ragdoll.iterations = 8;
+    }
+    pile_up(sim, side, count, mode, &ragdoll);
 }
 
 fn pile_up(sim: &mut Sim, side: Side, count: u32, mode: RagdollMode, ragdoll: &Ragdoll) {
