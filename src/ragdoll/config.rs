@@ -59,9 +59,9 @@ pub struct Ragdoll {
     /// second, above 0. Pressed against a wall with much more than 10 it trembles.
     pub keyframe_speed: f32,
     /// How often the solver goes over the joints in each substep, at least 1. It is a setting of the
-    /// whole physics world, where the largest that is asked for counts. 4 is enough for one figure and for
-    /// limp ones in piles; powered ones that lie on each other have half the gaps in their joints with 8, and
-    /// come to rest.
+    /// whole physics world, where the largest that is asked for counts. With 4 a neck that
+    /// bears a whole figure gives by 8 degrees, with 6 by none; powered figures that lie on each other have
+    /// gaps of 0.3 mm in their joints with 8, and come to rest.
     pub iterations: u8,
     /// With whom its bones collide.
     pub groups: BoneGroups,
@@ -140,7 +140,7 @@ impl Default for Ragdoll {
             blend: RagdollBlend::default(),
             rest: RagdollRest::default(),
             keyframe_speed: 10.0,
-            iterations: 4,
+            iterations: 6,
             groups: BoneGroups::default(),
         }
     }

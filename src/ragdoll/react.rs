@@ -17,6 +17,10 @@ use crate::backend::{
 
 /// A joint whose sides part by more than this within a tick was not drawn apart but burst, metres.
 const BURST: f32 = 0.25;
+/// Time before a figure is put back again, seconds: what bursts each time anew must go on somehow.
+const SPARED: f32 = 0.5;
+/// Figures with more bones are not put back.
+const MOST_BONES: usize = 64;
 
 /// The widest gap between the sides of the joints, metres, by where each bone is.
 fn widest(
@@ -34,9 +38,46 @@ fn widest(
     gaps.fold(0.0, |most, gap| if gap > most { gap } else { most })
 }
 
+/// Velocity of the centre of mass of all that hangs together with a bone, metres per second: before the tick
+/// or after it, whichever is slower, for a burst gives no speed.
+fn common(
+    plan: &RagdollPlan,
+    state: &RagdollState,
+    motions: &[Option<BodyMotion>],
+    bone: usize,
+) -> Vec3 {
+    let whole = |bone: usize| {
+        let mut at = bone;
+        while let Some(parent) = plan.bones[at].parent.filter(|_| !state.bones[at].severed) {
+            at = parent;
+        }
+        at
+    };
+    let of = whole(bone);
+    let (mut mass, mut before, mut after) = (0.0, Vec3::ZERO, Vec3::ZERO);
+    for (i, planned) in plan
+        .bones
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| whole(*i) == of)
+    {
+        if let Some(motion) = motions[i].as_ref().filter(|m| m.dynamic) {
+            mass += planned.mass;
+            before += state.bones[i].velocity * planned.mass;
+            after += motion.velocity * planned.mass;
+        }
+    }
+    let slower = if after.length_squared() < before.length_squared() {
+        after
+    } else {
+        before
+    };
+    slower / f32::max(mass, f32::MIN_POSITIVE)
+}
+
 /// A small bone wedged between others may get an impulse from the solver, within a tick, that tears the
-/// figure to pieces. One that was whole before is put back to where it was, each part at the speed of the
-/// bone that bears it, which leaves nothing to burst it again.
+/// figure to pieces. One that was whole before is put back to where it was, all of it at one speed, which
+/// leaves nothing to burst it again.
 fn put_back(
     worlds: &mut JointWorlds,
     plan: &RagdollPlan,
@@ -51,20 +92,21 @@ fn put_back(
             rotation: motion.rotation,
         })
     });
-    if now <= BURST || widest(plan, state, |i| Some(state.bones[i].place)) > 0.2 * BURST {
+    if now <= BURST || widest(plan, state, |i| Some(state.bones[i].place)) > 0.5 * BURST {
         return false;
     }
-    for (i, planned) in plan.bones.iter().enumerate() {
-        let known = &state.bones[i];
-        let bearer = planned.parent.filter(|_| !known.severed);
-        let velocity = match bearer.and_then(|p| motions[p]) {
-            Some(parent) => parent.velocity,
-            None => known.velocity,
-        };
+    if plan.bones.len() > MOST_BONES {
+        return false;
+    }
+    let mut velocities = [Vec3::ZERO; MOST_BONES];
+    for (i, velocity) in velocities.iter_mut().enumerate().take(plan.bones.len()) {
+        *velocity = common(plan, state, motions, i);
+    }
+    for (i, velocity) in velocities.into_iter().enumerate().take(plan.bones.len()) {
         if let Some(motion) = motions[i].as_mut().filter(|m| m.dynamic)
             && let Some((link, handle)) = at(i)
         {
-            let BonePose { position, rotation } = known.place;
+            let BonePose { position, rotation } = state.bones[i].place;
             let arm = motion.rotation.inverse() * (motion.center - motion.position);
             *motion = BodyMotion {
                 position,
@@ -83,6 +125,7 @@ fn put_back(
 
 /// Remembers every bone's motion and measures its joint.
 pub(super) fn observe(
+    time: Res<Time>,
     mut worlds: JointWorlds,
     mut ragdolls: Query<(&RagdollPlan, &mut RagdollState, &Bones)>,
     mut bones: Query<(
@@ -115,7 +158,10 @@ pub(super) fn observe(
                 handles[bone.order] = Some((*link, *handle));
             }
         }
-        let whole = !put_back(&mut worlds, plan, &state, &mut motions, |i| handles[i]);
+        let spared = (state.spared - time.delta_secs()).max(0.0);
+        let whole =
+            spared > 0.0 || !put_back(&mut worlds, plan, &state, &mut motions, |i| handles[i]);
+        state.bypass_change_detection().spared = if whole { spared } else { SPARED };
         for entity in tied.iter() {
             let Ok((bone, _, _, mut output, mut transform)) = bones.get_mut(entity) else {
                 continue;

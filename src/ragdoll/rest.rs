@@ -21,7 +21,8 @@ use crate::backend::{
 #[cfg_attr(feature = "serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct RagdollRest {
     /// The whole is not faster than this, as the root of its mean square speed by mass, metres per
-    /// second, at least 0: a hand that trembles keeps nobody awake. The physics lets a figure that lies
+    /// second, at least 0: a hand that trembles keeps nobody awake. Once it lies it moves again when it is
+    /// twice as fast. The physics lets a figure that lies
     /// still fall asleep while no point of it is faster than four times this.
     pub speed: f32,
     /// For so long, seconds, at least 0.
@@ -41,9 +42,15 @@ impl Default for RagdollRest {
     }
 }
 
+/// What lies still moves again when it is faster than [`RagdollRest::speed`] this many times.
+const STIRS: f32 = 2.0;
+
 /// No point of a figure that lies still is faster than this many times [`RagdollRest::speed`] when it falls
 /// asleep. What touches sleeps together or not at all: in a pile something always trembles a little.
 const DOZE: f32 = 4.0;
+
+/// A figure with a joint farther beyond its limits than this, radians, has not settled yet.
+const STRAINED: f32 = 0.012;
 
 /// It has come to rest. Triggered once, after the tick; again after it has moved.
 #[derive(EntityEvent, Reflect, Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,8 +116,16 @@ pub(super) fn notice(
                 sum += bone.mass * known.velocity.length_squared();
             }
         }
-        let still = mass > 0.0 && sum <= mass * config.rest.speed * config.rest.speed;
-        let lies = still && state.still + dt >= config.rest.time;
+        // What lies must move more clearly to count as up again than to have lain down.
+        let lay = state.still >= config.rest.time;
+        let speed = config.rest.speed * if lay { STIRS } else { 1.0 };
+        let still = mass > 0.0 && sum <= mass * speed * speed;
+        let within = |bone: Entity| {
+            bones
+                .get(bone)
+                .is_ok_and(|(_, o, ..)| o.violation < STRAINED)
+        };
+        let lies = still && state.still + dt >= config.rest.time && tied.iter().all(within);
         for (bone, output, link, handle) in bones.iter_many(tied.iter()) {
             if output.simulated && !output.asleep {
                 let dozes = lies && !is_cut(plan, state, bone.order);

@@ -18,6 +18,8 @@ pub struct RagdollState {
     pub rise_time: f32,
     /// How long nothing of it has moved, seconds; see [`RagdollRest`](super::RagdollRest).
     pub still: f32,
+    /// How long it is not put back again after the solver tore it to pieces, seconds.
+    pub spared: f32,
     /// The clip of its [`GetUp`](super::GetUp) that it waits for while it gets up.
     pub rise: Option<usize>,
     /// Where its entity was when the last tick drove it, or was taken to by
@@ -49,6 +51,7 @@ impl Default for RagdollState {
             age: 0.0,
             rise_time: 0.5,
             still: 0.0,
+            spared: 0.0,
             rise: None,
             figure: BonePose::default(),
             hits: Vec::new(),

@@ -156,7 +156,7 @@ fn switched(findings: &mut Findings, hz: f64, every: usize, all: &[RagdollMode],
             });
             let jump = jump.fold(0.0, f32::max);
             // What closes joints and clears the ground has no velocity, and goes by the tick.
-            let most = (0.6 * sim.dt()).max(0.01);
+            let most = sim.dt().max(0.01);
             findings.at_most(format!("{what}: jump, m"), jump, most);
         }
         // Of what follows the pose, the velocity comes from its ways; there the change of the way from tick
