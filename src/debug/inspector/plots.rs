@@ -13,6 +13,27 @@ const STATES: [GroundState; 4] = [
     GroundState::OnGround,
 ];
 
+/// Draws curves with their names, against seconds before now; the scale reaches from 0 to `top` at least.
+pub(super) fn curves(
+    ui: &mut Ui,
+    id: &'static str,
+    seconds: f64,
+    top: f64,
+    lines: Vec<(impl Into<String>, Color32, Vec<[f64; 2]>)>,
+) {
+    base(id, seconds)
+        .height(84.0)
+        .custom_y_axes(vec![labels()])
+        .include_y(0.0)
+        .include_y(top)
+        .legend(Legend::default().position(Corner::LeftTop))
+        .show(ui, |plot| {
+            for (name, color, points) in lines {
+                plot.line(Line::new(name, PlotPoints::from(points)).color(color));
+            }
+        });
+}
+
 /// Draws speed and ground state against seconds before now.
 pub(super) fn show(ui: &mut Ui, record: &Record<Sample>, seconds: f64) {
     if record.samples.is_empty() {
@@ -21,22 +42,11 @@ pub(super) fn show(ui: &mut Ui, record: &Record<Sample>, seconds: f64) {
     }
     let level = record.curve(|sample| sample.level.into());
     let rise = record.curve(|sample| sample.rise.into());
-    base("speed", seconds)
-        .height(100.0)
-        .custom_y_axes(vec![labels()])
-        .include_y(0.0)
-        .include_y(6.0)
-        .legend(Legend::default().position(Corner::LeftTop))
-        .show(ui, |plot| {
-            plot.line(
-                Line::new("level m/s", PlotPoints::from(level))
-                    .color(Color32::from_rgb(250, 204, 21)),
-            );
-            plot.line(
-                Line::new("rise m/s", PlotPoints::from(rise))
-                    .color(Color32::from_rgb(56, 189, 248)),
-            );
-        });
+    let lines = vec![
+        ("level m/s", Color32::from_rgb(250, 204, 21), level),
+        ("rise m/s", Color32::from_rgb(56, 189, 248), rise),
+    ];
+    curves(ui, "speed", seconds, 6.0, lines);
 
     let states = steps(&record.curve(|sample| level_of(sample.ground)));
     base("ground", seconds)

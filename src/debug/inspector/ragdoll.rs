@@ -5,7 +5,6 @@ use bevy_egui::{
     EguiContexts, EguiPrimaryContextPass,
     egui::{CollapsingHeader, Color32, Grid, Ui},
 };
-use egui_plot::{Corner, Legend, Line, PlotPoints};
 
 use super::{
     InspectorPanel,
@@ -167,32 +166,20 @@ fn plot(ui: &mut Ui, record: &Record<FallSample>, seconds: f64) {
         ui.weak("nothing recorded yet");
         return;
     }
-    let one = |ui: &mut Ui, id, top: f64, lines: Vec<(&str, Color32, Vec<[f64; 2]>)>| {
-        plots::base(id, seconds)
-            .height(84.0)
-            .custom_y_axes(vec![plots::labels()])
-            .include_y(0.0)
-            .include_y(top)
-            .legend(Legend::default().position(Corner::LeftTop))
-            .show(ui, |plot| {
-                for (name, color, points) in lines {
-                    plot.line(Line::new(name, PlotPoints::from(points)).color(color));
-                }
-            });
-    };
     let speed = record.curve(|s| s.speed.into());
     let gap = record.curve(|s| f64::from(1e3 * s.gap));
     let degrees = |value: fn(&FallSample) -> f32| record.curve(|s| value(s).to_degrees().into());
     let fastest = vec![("fastest bone, m/s", BLUE, speed)];
-    one(ui, "speed", 1.0, fastest);
-    one(ui, "gap", 1.0, vec![("widest gap, mm", RED, gap)]);
+    plots::curves(ui, "bones", seconds, 1.0, fastest);
+    let widest = vec![("widest gap, mm", RED, gap)];
+    plots::curves(ui, "gap", seconds, 1.0, widest);
     let angles = vec![
         ("beyond limits", RED, degrees(|s| s.violation)),
         ("mean error", BLUE, degrees(|s| s.error[0])),
         ("largest error", YELLOW, degrees(|s| s.error[1])),
     ];
     ui.label("angles, degrees");
-    one(ui, "angles", 5.0, angles);
+    plots::curves(ui, "joints", seconds, 5.0, angles);
 }
 
 fn table(ui: &mut Ui, shown: &ShownItem, bones: &Query<ShownBone>, names: &Query<&Name>) {

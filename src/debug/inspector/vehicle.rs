@@ -6,7 +6,7 @@ use bevy_egui::{
     EguiContexts, EguiPrimaryContextPass,
     egui::{CollapsingHeader, Color32, Grid, Ui},
 };
-use egui_plot::{Corner, Legend, Line, Plot, PlotPoints, Points};
+use egui_plot::{Line, Plot, PlotPoints, Points};
 
 use super::{
     InspectorPanel,
@@ -153,42 +153,27 @@ fn plot(ui: &mut Ui, record: &Record<DriveSample>, seconds: f64) {
         ui.weak("nothing recorded yet");
         return;
     };
-    let one = |ui: &mut Ui, id, top: f64, lines: Vec<(String, Color32, Vec<[f64; 2]>)>| {
-        plots::base(id, seconds)
-            .height(84.0)
-            .custom_y_axes(vec![plots::labels()])
-            .include_y(0.0)
-            .include_y(top)
-            .legend(Legend::default().position(Corner::LeftTop))
-            .show(ui, |plot| {
-                for (name, color, points) in lines {
-                    plot.line(Line::new(name, PlotPoints::from(points)).color(color));
-                }
-            });
-    };
-    one(
+    plots::curves(
         ui,
         "engine",
+        seconds,
         60.0,
         vec![
+            ("km/h", color(0), record.curve(|s| f64::from(3.6 * s.speed))),
             (
-                "km/h".into(),
-                color(0),
-                record.curve(|s| f64::from(3.6 * s.speed)),
-            ),
-            (
-                "100 rpm".into(),
+                "100 rpm",
                 color(1),
                 record.curve(|s| f64::from(0.01 * s.rpm)),
             ),
         ],
     );
-    one(
+    plots::curves(
         ui,
         "gear",
+        seconds,
         3.0,
         vec![(
-            "gear".into(),
+            "gear",
             color(3),
             plots::steps(&record.curve(|s| f64::from(s.gear))),
         )],
@@ -202,13 +187,20 @@ fn plot(ui: &mut Ui, record: &Record<DriveSample>, seconds: f64) {
             .collect::<Vec<_>>()
     };
     ui.label("wheel loads, kN");
-    one(ui, "loads", 1.0, of_wheels(|w| 1e-3 * w[0]));
+    plots::curves(ui, "loads", seconds, 1.0, of_wheels(|w| 1e-3 * w[0]));
     ui.label("slip ratios");
-    one(ui, "ratios", 0.1, of_wheels(|w| w[1].clamp(-1.0, 1.0)));
+    plots::curves(
+        ui,
+        "ratios",
+        seconds,
+        0.1,
+        of_wheels(|w| w[1].clamp(-1.0, 1.0)),
+    );
     ui.label("slip angles, degrees");
-    one(
+    plots::curves(
         ui,
         "angles",
+        seconds,
         5.0,
         of_wheels(|w| w[2].to_degrees().clamp(-45.0, 45.0)),
     );
