@@ -8,8 +8,8 @@ const LIES: f32 = 0.7;
 const STANDS: f32 = 1.4;
 /// How fast somebody may be, metres per second: what the script does makes nobody faster.
 const FASTEST: f32 = 25.0;
-/// A joint may part by this under a blow, metres.
-const WIDEST: f32 = 0.08;
+/// A joint may part by this for a tick under a blow that alone makes a bone as fast as 20 m/s, metres.
+const WIDEST: f32 = 0.2;
 
 /// What has happened so far.
 #[derive(Resource, Default)]
@@ -24,6 +24,8 @@ pub(super) struct Falls {
     rose: u32,
     /// Ticks in which a bone was nowhere, too fast, or off its joint.
     unsound: u32,
+    /// Widest gap of a joint, metres.
+    widest: f32,
 }
 
 impl Falls {
@@ -49,7 +51,11 @@ impl Falls {
             (
                 "no bone is nowhere, too fast, or off its joint",
                 self.unsound == 0,
-                format!("in {} ticks", self.unsound),
+                format!(
+                    "in {} ticks, at most {:.0} mm off",
+                    self.unsound,
+                    1e3 * self.widest
+                ),
             ),
         ];
         for (what, so, got) in &asked {
@@ -84,6 +90,7 @@ pub(super) fn report(
             let gap = if output.simulated { output.gap } else { 0.0 };
             // What is no number is within no bound.
             sound &= speed < FASTEST && gap < WIDEST;
+            falls.widest = falls.widest.max(gap);
             fastest = fastest.max(speed);
         }
         falls.unsound += u32::from(!sound);
